@@ -1,0 +1,4 @@
+//! Paint on metal that separates, cracks, curls, flakes off and rusts while a Bevy game runs.
+
+pub mod film;
+pub mod settings;
