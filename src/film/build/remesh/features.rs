@@ -20,8 +20,16 @@ const FLAT: f32 = 0.999_66;
 const LOW_POLY_SHARE: f32 = 0.4;
 /// Elsewhere an edge is followed if its triangles stand at least so many target edges high over it.
 const LOW_POLY_HEIGHT: f32 = 1.5;
-/// Creases that hang together over less than so many target edges are noise of a scan.
-const SHORTEST_CREASE: f32 = 2.0;
+/// Creases must still be sharp between the mean normals of their two sides out to so many target edges.
+const WRINKLE_RADIUS: f32 = 0.6;
+/// The most faces of a side that are looked at.
+const WRINKLE_FACES: usize = 64;
+/// Creases that hang together over less than so many target edges, and end somewhere, are noise of a scan.
+const SHORTEST_CREASE: f32 = 4.0;
+/// Closed ones are the rims of small holes and bosses, unless they are shorter than this.
+const SHORTEST_RIM: f32 = 1.0;
+/// So are branches shorter than this that end in a smooth region.
+const SHORTEST_BRANCH: f32 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -71,8 +79,8 @@ impl Features {
             let (f, g) = (h.face(), t.face());
             let cosine = normals[f.index()].dot(normals[g.index()]);
             let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target;
-            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t);
-            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t);
+            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t, exact);
+            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t, target);
             let kind = if exact && (seam || uneven()) {
                 Kind::Exact
             } else if seam {
@@ -86,7 +94,9 @@ impl Features {
             kinds[t.index()] = kind;
         }
         let mut features = Self { kinds };
-        features.drop_short_creases(topology, positions, SHORTEST_CREASE * target);
+        features.drop_wrinkles(topology, positions, WRINKLE_RADIUS * target);
+        features.drop_short_branches(topology, positions, SHORTEST_BRANCH * target);
+        features.drop_short_creases(topology, positions, target);
         features
     }
 
@@ -131,24 +141,117 @@ impl Features {
         patches
     }
 
-    fn drop_short_creases(&mut self, topology: &Topology, positions: &[Vec3], shortest: f32) {
+    /// Drops creases that are sharp only at the scale of a scan's noise: those whose sides, seen out to `radius`,
+    /// meet in less than the crease angle. A side does not reach around another feature.
+    fn drop_wrinkles(&mut self, topology: &Topology, positions: &[Vec3], radius: f32) {
+        let mut side = Vec::new();
+        let mut normal_of_side = |features: &Self, h: HalfEdgeId| {
+            let middle = positions[topology.origin(h).index()].midpoint(positions[topology.target(h).index()]);
+            let corners = |f: FaceId| topology.corners(f).map(|v| positions[v.index()]);
+            side.clear();
+            side.push(h.face());
+            let mut next = 0;
+            let mut normal = Vec3::ZERO;
+            while let Some(&f) = side.get(next) {
+                next += 1;
+                let [a, b, c] = corners(f);
+                normal += (b - a).cross(c - a);
+                for e in f.half_edges().into_iter().filter(|&e| !features.is_kept(e)) {
+                    if let Some(g) = topology.twin(e).map(HalfEdgeId::face)
+                        && side.len() < WRINKLE_FACES
+                        && !side.contains(&g)
+                        && corners(g).iter().sum::<Vec3>().distance(3.0 * middle) < 3.0 * radius
+                    {
+                        side.push(g);
+                    }
+                }
+            }
+            normal.normalize_or_zero()
+        };
+        // The long edges of designed shapes are no noise.
+        let small = |f: FaceId| {
+            let [a, b, c] = topology.corners(f).map(|v| positions[v.index()]);
+            a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)) < radius * radius
+        };
+        let wrinkles: Vec<HalfEdgeId> = topology
+            .edges()
+            .filter(|&h| self.kinds[h.index()] == Kind::Crease && small(h.face()))
+            .filter(|&h| {
+                topology
+                    .twin(h)
+                    .is_some_and(|t| small(t.face()) && normal_of_side(self, h).dot(normal_of_side(self, t)) > CREASE)
+            })
+            .collect();
+        for h in wrinkles {
+            self.free(topology, h);
+        }
+    }
+
+    /// Drops crease branches that end freely before `shortest`.
+    fn drop_short_branches(&mut self, topology: &Topology, positions: &[Vec3], shortest: f32) {
+        let mut degrees = vec![0_u32; topology.vertex_slots()];
+        for h in topology.edges().filter(|&h| self.is_kept(h)) {
+            degrees[topology.origin(h).index()] += 1;
+            degrees[topology.target(h).index()] += 1;
+        }
+        let ends: Vec<VertexId> = (0..degrees.len()).map(VertexId::new).filter(|v| degrees[v.index()] == 1).collect();
+        for end in ends {
+            let mut branch = Vec::new();
+            let mut length = 0.0;
+            let mut at = end;
+            while length < shortest && (at == end || degrees[at.index()] == 2) {
+                // Creases have faces on both sides, so every one at the vertex has a half-edge leaving it.
+                let onward = topology.ring(at).find(|&h| {
+                    self.kinds[h.index()] == Kind::Crease && branch.last().is_none_or(|&b| topology.twin(h) != Some(b))
+                });
+                let Some(h) = onward else { break };
+                branch.push(h);
+                length += positions[at.index()].distance(positions[topology.target(h).index()]);
+                at = topology.target(h);
+            }
+            // A branch that runs into another feature goes; one that ends freely at both ends is left to the
+            // measure of whole creases.
+            if length < shortest && degrees[at.index()] > 2 {
+                for h in branch {
+                    degrees[topology.origin(h).index()] -= 1;
+                    degrees[topology.target(h).index()] -= 1;
+                    self.free(topology, h);
+                }
+            }
+        }
+    }
+
+    fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
+        self.kinds[h.index()] = Kind::Free;
+        if let Some(t) = topology.twin(h) {
+            self.kinds[t.index()] = Kind::Free;
+        }
+    }
+
+    /// Drops short creases as a whole.
+    fn drop_short_creases(&mut self, topology: &Topology, positions: &[Vec3], target: f32) {
         let mut sets = Sets::new(topology.vertex_slots());
+        let mut degrees = vec![0_u32; topology.vertex_slots()];
         let creases: Vec<HalfEdgeId> = topology.edges().filter(|h| self.kinds[h.index()] == Kind::Crease).collect();
         for &h in &creases {
-            sets.join(topology.origin(h), topology.target(h));
+            let (a, b) = (topology.origin(h), topology.target(h));
+            sets.join(a, b);
+            degrees[a.index()] += 1;
+            degrees[b.index()] += 1;
         }
         let mut lengths = vec![0.0; topology.vertex_slots()];
+        let mut is_open = vec![false; topology.vertex_slots()];
         for &h in &creases {
-            let root = sets.root(topology.origin(h));
-            lengths[root.index()] +=
-                positions[topology.origin(h).index()].distance(positions[topology.target(h).index()]);
+            let (a, b) = (topology.origin(h), topology.target(h));
+            let root = sets.root(a).index();
+            lengths[root] += positions[a.index()].distance(positions[b.index()]);
+            is_open[root] |= degrees[a.index()] == 1 || degrees[b.index()] == 1;
         }
         for &h in &creases {
-            if lengths[sets.root(topology.origin(h)).index()] < shortest {
-                self.kinds[h.index()] = Kind::Free;
-                if let Some(t) = topology.twin(h) {
-                    self.kinds[t.index()] = Kind::Free;
-                }
+            let root = sets.root(topology.origin(h)).index();
+            let shortest = if is_open[root] { SHORTEST_CREASE } else { SHORTEST_RIM };
+            if lengths[root] < shortest * target {
+                self.free(topology, h);
             }
         }
     }

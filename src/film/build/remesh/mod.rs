@@ -25,6 +25,7 @@ use self::collapse::CollapseLimits;
 use self::mesh::WorkMesh;
 use self::reference::Reference;
 use self::relax::Relaxation;
+use self::split::SplitLimits;
 use super::{BuildError, BuildWarning, BuiltFilm, CleanSurface, MAX_FILM_TRIANGLES, Surface};
 
 pub(super) use self::sites::keep;
@@ -34,6 +35,11 @@ const SPLIT: f32 = 4.0 / 3.0;
 const COLLAPSE: f32 = 4.0 / 5.0;
 /// How far a film edge may stray from its feature line, in target edges.
 const DEVIATION: f32 = 0.08;
+/// How far the middle of an edge may be from the surface, in target edges, before it is split, and after a
+/// collapse; and the shortest edge that is split for it.
+const STRAY_SPLIT: f32 = 0.2;
+const STRAY_COLLAPSE: f32 = 0.12;
+const STRAY_SHORTEST: f32 = 0.5;
 /// Rounds of split, collapse, flip and relax.
 const ROUNDS: usize = 12;
 /// The first rounds shake the vertices.
@@ -104,11 +110,14 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
             shortest: COLLAPSE * edge,
             longest: SPLIT * edge,
             deviation: DEVIATION * edge,
+            stray: STRAY_COLLAPSE * edge,
             quality: 0.3,
             fewest_faces: 4,
         };
         let spread = if shaken { 0.4 } else { 0.0 };
-        split::split_long_edges(mesh, SPLIT * edge, spread, usize::MAX, rng);
+        let cuts =
+            SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge, spread };
+        split::split_edges(mesh, cuts, rng);
         flip::flip_edges(mesh);
         collapse::collapse_short_edges(mesh, limits);
         flip::flip_edges(mesh);
