@@ -8,36 +8,31 @@
 use bevy_math::Vec3;
 
 use super::attributes::Attributes;
+use super::noise;
 use super::topology::Topology;
 use crate::film::build::{CleanSurface, Surface};
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use crate::film::{FaceId, HalfEdgeId};
 
 /// Cosine of the crease angle, 30 degrees.
-const CREASE: f32 = 0.866;
+pub(super) const CREASE: f32 = 0.866;
 /// Cosine of the angle up to which two triangles count as coplanar, 1.5 degrees.
 const FLAT: f32 = 0.999_66;
-/// A prop whose triangles number less than this share of the film's is followed exactly everywhere.
-const LOW_POLY_SHARE: f32 = 0.4;
+/// A prop of so few triangles is followed exactly everywhere, whatever the film's number.
+const LOW_POLY: f32 = 500.0;
+/// So is one whose triangles number less than this share of the film's.
+const LOW_POLY_SHARE: f32 = 0.3;
 /// Elsewhere an edge is followed if its triangles stand at least so many target edges high over it.
 const LOW_POLY_HEIGHT: f32 = 1.5;
-/// Creases must still be sharp between the mean normals of their two sides out to so many target edges.
-const WRINKLE_RADIUS: f32 = 0.6;
-/// The most faces of a side that are looked at.
-const WRINKLE_FACES: usize = 64;
-/// Creases that hang together over less than so many target edges, and end somewhere, are noise of a scan.
-const SHORTEST_CREASE: f32 = 4.0;
-/// Closed ones are the rims of small holes and bosses, unless they are shorter than this.
-const SHORTEST_RIM: f32 = 1.0;
-/// So are branches shorter than this that end in a smooth region.
-const SHORTEST_BRANCH: f32 = 1.5;
+/// A sharp edge at a face with a side longer than so many target edges is no noise.
+const NOISE_FACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Free,
-    /// A sharp edge on a dense surface: kept if it is long enough.
-    Crease,
-    /// A border or a seam: kept, as a polyline that may be resampled.
-    Seam,
+    /// A sharp edge between faces smaller than the film's: a crease, unless it is a scan's noise.
+    Doubtful,
+    /// A crease, border or seam: kept, as a polyline that may be resampled.
+    Line,
     /// An edge of a low-poly prop: kept with both its ends.
     Exact,
 }
@@ -59,7 +54,7 @@ impl Features {
     ) -> Self {
         let attributes = Attributes::new(surface, clean);
         let positions = &clean.positions;
-        let low_poly = clean.triangles.len() as f32 <= LOW_POLY_SHARE * triangles;
+        let low_poly = clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
         let slot = |f: FaceId| {
             clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
         };
@@ -69,11 +64,17 @@ impl Features {
                 [topology.origin(h), topology.target(h), topology.opposite(h)].map(|v| positions[v.index()]);
             (b - a).cross(c - a).length() / (b - a).length().max(f32::MIN_POSITIVE)
         };
+        let is_small = |f: FaceId| {
+            f.half_edges().into_iter().all(|h| {
+                let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);
+                a.distance(b) < NOISE_FACE * target
+            })
+        };
         let mut kinds = vec![Kind::Free; 3 * topology.face_slots()];
         for h in topology.edges() {
             let Some(t) = topology.twin(h) else {
                 let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target;
-                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Seam };
+                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
                 continue;
             };
             let (f, g) = (h.face(), t.face());
@@ -84,9 +85,9 @@ impl Features {
             let kind = if exact && (seam || uneven()) {
                 Kind::Exact
             } else if seam {
-                Kind::Seam
+                Kind::Line
             } else if cosine < CREASE {
-                Kind::Crease
+                if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
             } else {
                 Kind::Free
             };
@@ -94,9 +95,7 @@ impl Features {
             kinds[t.index()] = kind;
         }
         let mut features = Self { kinds };
-        features.drop_wrinkles(topology, positions, WRINKLE_RADIUS * target);
-        features.drop_short_branches(topology, positions, SHORTEST_BRANCH * target);
-        features.drop_short_creases(topology, positions, target);
+        noise::drop_noise(&mut features, topology, positions, target);
         features
     }
 
@@ -141,143 +140,15 @@ impl Features {
         patches
     }
 
-    /// Drops creases that are sharp only at the scale of a scan's noise: those whose sides, seen out to `radius`,
-    /// meet in less than the crease angle. A side does not reach around another feature.
-    fn drop_wrinkles(&mut self, topology: &Topology, positions: &[Vec3], radius: f32) {
-        let mut side = Vec::new();
-        let mut normal_of_side = |features: &Self, h: HalfEdgeId| {
-            let middle = positions[topology.origin(h).index()].midpoint(positions[topology.target(h).index()]);
-            let corners = |f: FaceId| topology.corners(f).map(|v| positions[v.index()]);
-            side.clear();
-            side.push(h.face());
-            let mut next = 0;
-            let mut normal = Vec3::ZERO;
-            while let Some(&f) = side.get(next) {
-                next += 1;
-                let [a, b, c] = corners(f);
-                normal += (b - a).cross(c - a);
-                for e in f.half_edges().into_iter().filter(|&e| !features.is_kept(e)) {
-                    if let Some(g) = topology.twin(e).map(HalfEdgeId::face)
-                        && side.len() < WRINKLE_FACES
-                        && !side.contains(&g)
-                        && corners(g).iter().sum::<Vec3>().distance(3.0 * middle) < 3.0 * radius
-                    {
-                        side.push(g);
-                    }
-                }
-            }
-            normal.normalize_or_zero()
-        };
-        // The long edges of designed shapes are no noise.
-        let small = |f: FaceId| {
-            let [a, b, c] = topology.corners(f).map(|v| positions[v.index()]);
-            a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)) < radius * radius
-        };
-        let wrinkles: Vec<HalfEdgeId> = topology
-            .edges()
-            .filter(|&h| self.kinds[h.index()] == Kind::Crease && small(h.face()))
-            .filter(|&h| {
-                topology
-                    .twin(h)
-                    .is_some_and(|t| small(t.face()) && normal_of_side(self, h).dot(normal_of_side(self, t)) > CREASE)
-            })
-            .collect();
-        for h in wrinkles {
-            self.free(topology, h);
-        }
+    pub(super) fn is_doubtful(&self, h: HalfEdgeId) -> bool {
+        self.kinds[h.index()] == Kind::Doubtful
     }
 
-    /// Drops crease branches that end freely before `shortest`.
-    fn drop_short_branches(&mut self, topology: &Topology, positions: &[Vec3], shortest: f32) {
-        let mut degrees = vec![0_u32; topology.vertex_slots()];
-        for h in topology.edges().filter(|&h| self.is_kept(h)) {
-            degrees[topology.origin(h).index()] += 1;
-            degrees[topology.target(h).index()] += 1;
-        }
-        let ends: Vec<VertexId> = (0..degrees.len()).map(VertexId::new).filter(|v| degrees[v.index()] == 1).collect();
-        for end in ends {
-            let mut branch = Vec::new();
-            let mut length = 0.0;
-            let mut at = end;
-            while length < shortest && (at == end || degrees[at.index()] == 2) {
-                // Creases have faces on both sides, so every one at the vertex has a half-edge leaving it.
-                let onward = topology.ring(at).find(|&h| {
-                    self.kinds[h.index()] == Kind::Crease && branch.last().is_none_or(|&b| topology.twin(h) != Some(b))
-                });
-                let Some(h) = onward else { break };
-                branch.push(h);
-                length += positions[at.index()].distance(positions[topology.target(h).index()]);
-                at = topology.target(h);
-            }
-            // A branch that runs into another feature goes; one that ends freely at both ends is left to the
-            // measure of whole creases.
-            if length < shortest && degrees[at.index()] > 2 {
-                for h in branch {
-                    degrees[topology.origin(h).index()] -= 1;
-                    degrees[topology.target(h).index()] -= 1;
-                    self.free(topology, h);
-                }
-            }
-        }
-    }
-
-    fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
+    /// The film need not follow the edge after all.
+    pub(super) fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
         self.kinds[h.index()] = Kind::Free;
         if let Some(t) = topology.twin(h) {
             self.kinds[t.index()] = Kind::Free;
         }
-    }
-
-    /// Drops short creases as a whole.
-    fn drop_short_creases(&mut self, topology: &Topology, positions: &[Vec3], target: f32) {
-        let mut sets = Sets::new(topology.vertex_slots());
-        let mut degrees = vec![0_u32; topology.vertex_slots()];
-        let creases: Vec<HalfEdgeId> = topology.edges().filter(|h| self.kinds[h.index()] == Kind::Crease).collect();
-        for &h in &creases {
-            let (a, b) = (topology.origin(h), topology.target(h));
-            sets.join(a, b);
-            degrees[a.index()] += 1;
-            degrees[b.index()] += 1;
-        }
-        let mut lengths = vec![0.0; topology.vertex_slots()];
-        let mut is_open = vec![false; topology.vertex_slots()];
-        for &h in &creases {
-            let (a, b) = (topology.origin(h), topology.target(h));
-            let root = sets.root(a).index();
-            lengths[root] += positions[a.index()].distance(positions[b.index()]);
-            is_open[root] |= degrees[a.index()] == 1 || degrees[b.index()] == 1;
-        }
-        for &h in &creases {
-            let root = sets.root(topology.origin(h)).index();
-            let shortest = if is_open[root] { SHORTEST_CREASE } else { SHORTEST_RIM };
-            if lengths[root] < shortest * target {
-                self.free(topology, h);
-            }
-        }
-    }
-}
-
-/// Disjoint sets of vertices.
-struct Sets {
-    parents: Vec<VertexId>,
-}
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self { parents: (0..count).map(VertexId::new).collect() }
-    }
-
-    fn root(&mut self, mut v: VertexId) -> VertexId {
-        while self.parents[v.index()] != v {
-            let grandparent = self.parents[self.parents[v.index()].index()];
-            self.parents[v.index()] = grandparent;
-            v = grandparent;
-        }
-        v
-    }
-
-    fn join(&mut self, a: VertexId, b: VertexId) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a.max(b).index()] = a.min(b);
     }
 }
