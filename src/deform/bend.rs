@@ -13,7 +13,6 @@
 //!   rest exactly at `phi0`.
 
 use bevy_math::{Vec3, ops};
-use serde::{Deserialize, Serialize};
 
 use crate::film::HalfEdgeId;
 
@@ -21,7 +20,7 @@ use crate::film::HalfEdgeId;
 const MIN_NEUTRAL: f32 = 1e-6;
 
 /// Closes the two faces of a bound edge to the target angle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendConstraint {
     /// The lower half-edge of the edge.
     pub half_edge: HalfEdgeId,

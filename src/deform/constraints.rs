@@ -1,7 +1,6 @@
 //! The constraints of a film, and the upkeep of their lists.
 
 use bevy_math::Vec3;
-use serde::{Deserialize, Serialize};
 
 use super::{BendConstraint, LengthConstraint};
 use crate::film::{FilmMesh, HalfEdgeId, InvariantError, VertexId};
@@ -11,7 +10,7 @@ const NONE: u32 = u32::MAX;
 
 /// Constraints of a film, sorted by half-edge: the order in which they are solved, which therefore does not
 /// depend on the order in which they came to be.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmConstraints {
     /// Length constraints.
     pub lengths: Vec<LengthConstraint>,
@@ -75,10 +74,8 @@ impl FilmConstraints {
         let points = bend_points(mesh, carrier);
         let rest = points.map(|v| mesh.geometry.rest_positions[v as usize]);
         // A face folded to nothing has no angle now; its rest angle is what it comes from.
-        let angle = mesh
-            .geometry
-            .dihedral(&mesh.topology, carrier)
-            .unwrap_or(mesh.geometry.rest_dihedrals[carrier.index()]);
+        let angle =
+            mesh.geometry.dihedral(&mesh.topology, carrier).unwrap_or(mesh.geometry.rest_dihedrals[carrier.index()]);
         self.bend_slots[carrier.index()] = self.bends.len() as u32;
         self.bends.push(BendConstraint::new(carrier, points, rest, angle));
         self.dirty = true;
@@ -140,7 +137,7 @@ impl FilmConstraints {
         }
         for v in topology.all_vertices().filter(|&v| topology.has_faces(v)) {
             if (self.inverse_masses[v.index()] == 0.0) != is_attached(v) {
-                return Err(InvariantError::AttachedMoved(v));
+                return Err(InvariantError::InverseMass(v));
             }
         }
         let (mut lengths, mut bends) = (0, 0);

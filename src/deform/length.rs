@@ -1,13 +1,12 @@
 //! Length constraint: an edge keeps its rest length (VC 4.2).
 
 use bevy_math::Vec3;
-use serde::{Deserialize, Serialize};
 
 use crate::film::HalfEdgeId;
 
 /// Keeps two vertices at the rest length of their edge. A bound edge has one, carried by its lower
 /// half-edge; a torn edge has one for each half-edge whose face is live.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthConstraint {
     /// The half-edge that carries the constraint.
     pub half_edge: HalfEdgeId,

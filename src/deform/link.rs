@@ -26,7 +26,7 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
         }
     }
     for &f in &changes.removed {
-        remove_face(mesh, constraints, f);
+        remove_face(constraints, f);
     }
     for &v in &changes.separated {
         constrain_ring(mesh, constraints, v);
@@ -52,7 +52,7 @@ fn constrain_ring(mesh: &FilmMesh, constraints: &mut FilmConstraints, v: VertexI
     }
 }
 
-fn remove_face(mesh: &FilmMesh, constraints: &mut FilmConstraints, f: FaceId) {
+fn remove_face(constraints: &mut FilmConstraints, f: FaceId) {
     for h in f.half_edges() {
         constraints.remove_length(h);
         constraints.remove_bend(h);

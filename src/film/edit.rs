@@ -97,9 +97,11 @@ impl Topology {
     /// Removes the faces of a whole piece (all live faces joined across bound edges) as fallen. Faces that
     /// are gone already are passed over.
     pub fn drop_piece(&mut self, piece: &[FaceId]) {
-        debug_assert!(piece.iter().all(|f| {
-            f.half_edges().iter().all(|&h| self.bound_twin(h).is_none_or(|t| piece.contains(&t.face())))
-        }));
+        debug_assert!(
+            piece.iter().all(|f| {
+                f.half_edges().iter().all(|&h| self.bound_twin(h).is_none_or(|t| piece.contains(&t.face())))
+            })
+        );
         for &f in piece {
             if self.is_live(f) {
                 self.remove(f, FaceFate::Fallen);

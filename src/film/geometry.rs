@@ -3,12 +3,11 @@
 
 use bevy_math::{Vec3, ops};
 use core::f32::consts::PI;
-use serde::{Deserialize, Serialize};
 
 use super::{FaceId, HalfEdgeId, Topology, VertexId};
 
 /// Positions, at rest and now, in the prop's space with its world scale applied; and rest measures.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
     /// Position of each vertex at rest.
     pub rest_positions: Vec<Vec3>,

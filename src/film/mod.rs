@@ -14,7 +14,6 @@ mod topology;
 mod validate;
 
 use bevy_math::Vec3;
-use serde::{Deserialize, Serialize};
 
 pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;
@@ -28,7 +27,7 @@ pub use validate::InvariantError;
 mod tests;
 
 /// The film mesh of one coated prop.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmMesh {
     /// Connectivity.
     pub topology: Topology,

@@ -1,12 +1,10 @@
 //! Connected pieces of the film, and which of them hang in the air.
 
-use serde::{Deserialize, Serialize};
-
 use super::{FaceId, Topology, VertexId};
 
 /// The loose pieces of a film: live faces joined across bound edges, none of whose vertices is attached.
 /// Pieces are in the order of their lowest face.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoosePieces {
     faces: Vec<FaceId>,
     vertices: Vec<VertexId>,

@@ -65,7 +65,8 @@ fn euler(film: &FilmMesh) -> i64 {
     let t = &film.topology;
     let vertices = t.all_vertices().filter(|&v| t.has_faces(v)).count() as i64;
     let faces = t.live_faces().count() as i64;
-    let half: i64 = t.live_faces().flat_map(FaceId::half_edges).map(|h| if t.bound_twin(h).is_some() { 1 } else { 2 }).sum();
+    let half: i64 =
+        t.live_faces().flat_map(FaceId::half_edges).map(|h| if t.bound_twin(h).is_some() { 1 } else { 2 }).sum();
     vertices - half / 2 + faces
 }
 

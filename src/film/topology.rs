@@ -4,12 +4,10 @@
 //! The twin is the one of the rest state and is kept when the edge tears: whether the two are still bound is
 //! a flag. All handles stay valid for the life of the film (see [`super::edit`]).
 
-use serde::{Deserialize, Serialize};
-
 use super::{FaceId, HalfEdgeId, VertexId};
 
 /// What has become of a face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaceFate {
     /// Part of the film.
     Live,
@@ -48,7 +46,7 @@ pub enum TopologyError {
 
 /// Connectivity of the film. Every vertex that has faces has exactly one fan of faces joined across bound
 /// edges.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Topology {
     /// Start vertex of each half-edge.
     pub(super) origins: Vec<VertexId>,

@@ -45,6 +45,9 @@ pub enum InvariantError {
     /// A crack tip does not have exactly one torn edge.
     #[error("crack tip {0:?} does not have exactly one torn edge")]
     Tip(VertexId),
+    /// The inverse mass of a vertex does not agree with whether it is attached.
+    #[error("vertex {0:?} has the wrong inverse mass")]
+    InverseMass(VertexId),
     /// A constraint is missing, doubled or refers to the wrong vertices.
     #[error("constraint of half-edge {0:?} is wrong")]
     Constraint(HalfEdgeId),

@@ -20,9 +20,8 @@ const PERLIN_DEVIATION: f64 = 0.2755;
 /// through `frequency` cycles over the longest side of the bounding box; the seed rotates and shifts it, so
 /// that no lattice plane (where Perlin noise is 0) lies in a flat film.
 pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, seed: u64) -> Vec<f32> {
-    let (min, max) = positions
-        .iter()
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
+    let (min, max) =
+        positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
     let longest = (max - min).max_element();
     let scale = if longest > 0.0 { settings.frequency / longest } else { 0.0 };
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

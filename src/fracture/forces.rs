@@ -3,7 +3,6 @@
 use bevy_math::{Vec3, ops};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
 
 use super::{adhesion_field, sigmoid};
 use crate::{
@@ -15,7 +14,7 @@ use crate::{
 const WEAK_EDGE_STREAM: u64 = 1;
 
 /// Forces and fracture state of a film, in units of the initial contraction.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmForces {
     /// Adhesion of each vertex to the metal.
     pub adhesion: Vec<f32>,

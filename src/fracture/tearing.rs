@@ -47,10 +47,7 @@ pub fn tear(
     }));
     candidates.sort_unstable_by(|a, b| {
         let aligned = |c: &Candidate| c.alignment.unwrap_or(f32::NEG_INFINITY);
-        aligned(b)
-            .total_cmp(&aligned(a))
-            .then(b.overload.total_cmp(&a.overload))
-            .then(a.edge.cmp(&b.edge))
+        aligned(b).total_cmp(&aligned(a)).then(b.overload.total_cmp(&a.overload)).then(a.edge.cmp(&b.edge))
     });
     for &Candidate { edge, .. } in candidates.iter() {
         let alignment = alignment(mesh, forces, edge);
@@ -64,9 +61,7 @@ pub fn tear(
 /// no crack does. At rest, as all directions of this section.
 fn alignment(mesh: &FilmMesh, forces: &FilmForces, edge: HalfEdgeId) -> Option<f32> {
     let (a, b) = (mesh.topology.origin(edge), mesh.topology.target(edge));
-    let at = |tip: VertexId, other: VertexId| {
-        forces.tip(tip).map(|crack| direction(mesh, tip, other).dot(crack))
-    };
+    let at = |tip: VertexId, other: VertexId| forces.tip(tip).map(|crack| direction(mesh, tip, other).dot(crack));
     match (at(a, b), at(b, a)) {
         (Some(x), Some(y)) => Some(if x > y { x } else { y }),
         (x, y) => x.or(y),
@@ -89,8 +84,7 @@ fn overload(
 ) -> Option<f32> {
     let (pull, binding) = forces.pull_and_binding(&mesh.topology, edge)?;
     let live = mesh.topology.is_live(edge.face());
-    let separated =
-        !forces.is_attached(mesh.topology.origin(edge)) && !forces.is_attached(mesh.topology.target(edge));
+    let separated = !forces.is_attached(mesh.topology.origin(edge)) && !forces.is_attached(mesh.topology.target(edge));
     let relieved = alignment.is_some_and(|cosine| cosine > settings.alpha);
     let binding = if relieved { settings.beta * binding } else { binding };
     // A binding that has decayed to nothing must still order by pull, not divide by zero.
