@@ -8,6 +8,7 @@
 //! and tests.
 
 pub mod clean;
+pub mod sample;
 
 use bevy_math::{Vec2, Vec3, Vec4};
 
