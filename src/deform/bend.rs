@@ -6,14 +6,16 @@
 //! `(p1, p2, p_tip)` and `v_i`: the distance of `v_i` from the centroid `c_i` of the four is to be `d_i`.
 //!
 //! Differences from the printed appendix:
-//! - The printed corrections hold `(v - v_i)` where `(v_i's centroid form) v - c_i` is meant: as printed the
-//!   strain never vanishes. With `q_i = p1 + p2 - p_tip - v_i = 4 (v_i - c_i)` reversed, no centroid is needed.
+//! - The printed corrections hold `(v - v_i)`, also inside `u_i`, where `(v - c_i)` is meant, `c_i` being the
+//!   centroid: as printed the strain never vanishes and the pair always folds one way. The form here needs no
+//!   centroid: `q_i = p1 + p2 - p_tip - v_i`.
 //! - The printed `d_i = l_i / 4 sqrt(2 (1 + cos(phi0 / 2)))` is right for wings perpendicular to the edge
 //!   only. With the rest altitude over the rest median, `h_i / l_i`, before the cosine, any triangle is at
 //!   rest exactly at `phi0`.
 
 use bevy_math::{Vec3, ops};
 
+use super::length::length;
 use crate::film::HalfEdgeId;
 
 /// Normals whose sum is shorter than this leave no neutral direction: a fully folded pair.
@@ -103,22 +105,22 @@ pub fn bend_corrections(p: [Vec3; 4], w: [f32; 4], reach: [f32; 2], rest_medians
     let [w1, w2, w3, w4] = w;
     let edge = p2 - p1;
     let (n1, n2) = (edge.cross(p3 - p1), (p4 - p1).cross(edge));
-    let (area1, area2) = (n1.length(), n2.length());
+    let (area1, area2) = (length(n1), length(n2));
     if !(area1 > 0.0 && area2 > 0.0) {
         return None;
     }
-    let neutral = n1 / area1 + n2 / area2;
-    let neutral_length = neutral.length();
+    let neutral = n1 * (1.0 / area1) + n2 * (1.0 / area2);
+    let neutral_length = length(neutral);
     if !(neutral_length >= MIN_NEUTRAL) {
         return None;
     }
-    let neutral = neutral / neutral_length;
+    let neutral = neutral * (1.0 / neutral_length);
     let middle = (p1 + p2) * 0.5;
     let wing = |tip: Vec3, reach: f32, rest: f32| {
         let arm = middle - tip;
-        let median = arm.length();
+        let median = length(arm);
         let q = arm - median * neutral;
-        let q_length = q.length();
+        let q_length = length(q);
         if !(q_length > 0.0 && median > 0.0) {
             return None;
         }
@@ -132,6 +134,7 @@ pub fn bend_corrections(p: [Vec3; 4], w: [f32; 4], reach: [f32; 2], rest_medians
         return None;
     }
     let (without4, without3) = (total - w4, total - w3);
-    let shared = (a1 * without3 + a2 * without4) / (total * (without4 + without3));
-    Some([-w1 * shared, -w2 * shared, a1 * (w3 / total), a2 * (w4 / total)])
+    let whole = 1.0 / total;
+    let shared = (a1 * without3 + a2 * without4) * (whole / (without4 + without3));
+    Some([-w1 * shared, -w2 * shared, a1 * (w3 * whole), a2 * (w4 * whole)])
 }

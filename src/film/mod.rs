@@ -24,7 +24,7 @@ pub use topology::{FaceFate, Fan, Topology, TopologyError};
 pub use validate::InvariantError;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 /// The film mesh of one coated prop.
 #[derive(Clone, Debug, Default, PartialEq)]
