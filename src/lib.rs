@@ -2,3 +2,6 @@
 
 pub mod film;
 pub mod settings;
+mod settings_asset;
+
+pub use settings_asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
