@@ -260,3 +260,16 @@ fn every_preset_file_is_built_in() {
     files.sort();
     assert_eq!(files, PRESETS.map(|(name, _)| format!("{name}.coating.ron")));
 }
+
+#[test]
+fn the_readme_lists_every_setting() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
+    for (field, row) in CoatingSettings::fields().zip(rows) {
+        let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);
+        assert!(row.starts_with(&expected), "{row}\nshould start with\n{expected}");
+    }
+    for (name, _) in PRESETS {
+        assert!(readme.contains(&format!("| `{name}` | ")), "{name}");
+    }
+}
