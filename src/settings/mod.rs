@@ -13,7 +13,7 @@
 //! settings.validate()?;
 //!
 //! let error = CoatingSettings::from_ron("(tearing: (beta: 2.0))", "barrel.coating.ron").unwrap_err();
-//! assert_eq!(error.to_string(), "barrel.coating.ron:1:21: setting `tearing.beta` is 2, but its range is 0 to 1");
+//! assert_eq!(error.to_string(), "barrel.coating.ron:1:18: setting `tearing.beta` is 2, but its range is 0 to 1");
 //! # Ok::<(), bevy_coating::settings::SettingsError>(())
 //! ```
 
