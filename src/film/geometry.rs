@@ -86,7 +86,8 @@ impl Geometry {
     /// Mean of the corners of `f` at rest.
     #[inline]
     pub fn rest_centroid(&self, topology: &Topology, f: FaceId) -> Vec3 {
-        let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[v.index()]);
+        // Through the originals, which never move or change: a duplicate may not be known here yet.
+        let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[topology.original(v).index()]);
         (a + b + c) / 3.0
     }
 

@@ -7,6 +7,9 @@
 //! Nothing here knows Bevy: a [`Surface`] is plain arrays, so the same code serves the plugin, the bake tool
 //! and tests.
 
+pub mod clean;
+pub mod sample;
+
 use bevy_math::{Vec2, Vec3, Vec4};
 
 /// The prop's own surface: the triangles of one connected prop (all primitives of one glTF node), in the
@@ -140,6 +143,8 @@ pub enum BuildWarning {
     NonManifoldEdgesSplit(u32),
     /// Vertices where sheets met in a point were split.
     NonManifoldVerticesSplit(u32),
+    /// Edges of one-sided shells (Möbius bands) that were cut where the two sides meet.
+    OneSidedEdgesCut(u32),
     /// Triangles whose winding was turned to agree with their shell.
     WindingTurned(u32),
     /// Feature lines are denser than the target edge: the film is finer there.
