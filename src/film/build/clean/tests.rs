@@ -412,8 +412,8 @@ proptest! {
     fn books_of_pages_come_apart(seed: u64, pages in 2_usize..9, length in 1_u32..5) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut mesh = Surface::default();
-        for _ in 0..pages {
-            let angle: f32 = rng.random_range(0.0..std::f32::consts::TAU);
+        for i in 0..pages {
+            let angle = std::f32::consts::TAU * (i as f32 + 0.9 * rng.random::<f32>()) / pages as f32;
             let (sin, cos) = (bevy_math::ops::sin(angle), bevy_math::ops::cos(angle));
             let page = soup(&grid(length, 2, |x, y| Vec3::new(x * cos, x * sin, y)));
             let offset = mesh.positions.len() as u32;
