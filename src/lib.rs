@@ -9,6 +9,7 @@ pub mod film;
 pub mod fracture;
 pub mod settings;
 mod settings_asset;
+pub mod shown;
 pub mod sim;
 
 pub use settings_asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
