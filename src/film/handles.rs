@@ -73,6 +73,6 @@ impl HalfEdgeId {
     /// The previous half-edge of the same face.
     #[inline]
     pub fn previous(self) -> Self {
-        Self(if self.0 % 3 == 0 { self.0 + 2 } else { self.0 - 1 })
+        Self(if self.0.is_multiple_of(3) { self.0 + 2 } else { self.0 - 1 })
     }
 }

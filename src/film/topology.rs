@@ -269,7 +269,7 @@ impl Topology {
         self.originals[v.index()]
     }
 
-    /// Whether a face of `f`'s edges is torn.
+    /// Whether an edge of `f` is torn.
     #[inline]
     pub fn has_torn_edge(&self, f: FaceId) -> bool {
         f.half_edges().iter().any(|&h| self.torn[h.index()])

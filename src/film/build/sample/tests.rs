@@ -136,7 +136,7 @@ fn textures_lie_upright_and_normals_point_out() {
                     "plate" => (Vec2::new(0.5 + p.x, 0.5 - p.y), Vec3::Z),
                     "disk" => (Vec2::new(0.5 + 0.5 * p.x, 0.5 - 0.5 * p.y), Vec3::Z),
                     _ => {
-                        let angle = p.x.atan2(p.z) / std::f32::consts::FRAC_PI_2;
+                        let angle = bevy_math::ops::atan2(p.x, p.z) / std::f32::consts::FRAC_PI_2;
                         (Vec2::new(0.5 + angle, 0.5 - p.y), p.with_y(0.0).normalize())
                     }
                 };
