@@ -7,6 +7,9 @@
 pub mod deform;
 pub mod film;
 pub mod fracture;
+pub mod plugin;
+pub mod prelude;
+mod render;
 pub mod settings;
 mod settings_asset;
 pub mod shown;

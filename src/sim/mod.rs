@@ -10,7 +10,7 @@ mod timing;
 #[cfg(test)]
 mod tests;
 
-pub use clock::FilmClock;
+pub use clock::{DEFAULT_STEPS_PER_AGE, FilmClock};
 pub use digest::DIGEST_ALGORITHM;
 pub use measure::FilmMeasures;
 pub use state::{FilmState, StainFields, StepScratch, stage};
