@@ -1,6 +1,6 @@
 //! Writing an aged model as binary glTF 2.0.
 //!
-//! One node and mesh for each prop, in scene space, with one primitive for each material: the prop's own on the film,
+//! One node and mesh for each prop, moved to its place in the scene, with one primitive for each material: the prop's own on the film,
 //! primer on the backs of flakes, and rusted metal beneath. What is shown is made by `bevy_coating::shown`, as in a
 //! running game.
 
@@ -8,6 +8,7 @@ mod buffer;
 mod materials;
 
 use bevy_coating::shown::ShownFilm;
+use bevy_math::Vec3;
 use serde_json::{Map, Value, json};
 
 use super::{BakeError, Baked, Slot, props::Prop};
@@ -30,7 +31,11 @@ pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
     for (prop, shown) in props.iter().zip(&shown) {
         let primitives = primitives(prop, shown, &mut chunk, &mut materials);
         if !primitives.is_empty() {
-            nodes.push(json!({ "name": prop.name, "mesh": meshes.len() }));
+            let mut node = json!({ "name": prop.name, "mesh": meshes.len() });
+            if let (true, Some(fields)) = (prop.origin != Vec3::ZERO, node.as_object_mut()) {
+                fields.insert("translation".into(), json!(prop.origin.to_array()));
+            }
+            nodes.push(node);
             meshes.push(json!({ "name": prop.name, "primitives": primitives }));
         }
     }

@@ -54,6 +54,11 @@ fn square(mode: u32, indices: &[u8]) -> (Value, Vec<u8>) {
     (document, binary)
 }
 
+/// Positions in the scene of the first mesh.
+fn in_scene(model: &Model) -> Vec<Vec3> {
+    model.meshes[0].surface.positions.iter().map(|&p| p + model.meshes[0].origin).collect()
+}
+
 /// Sum of the triangles' normals, twice the area long.
 fn area_vector(model: &Model) -> Vec3 {
     let surface = &model.meshes[0].surface;
@@ -87,10 +92,21 @@ fn nested_transforms_lead_into_scene_space() {
         { "mesh": 0, "rotation": [0.0, 0.0, half, half], "scale": [2.0, 1.0, 1.0] }
     ]);
     let model = read(&document, &binary).unwrap();
-    let positions = &model.meshes[0].surface.positions;
+    let positions = in_scene(&model);
     // Twice as long along x, turned to y, moved along x.
     assert!(positions[1].abs_diff_eq(Vec3::new(10.0, 2.0, 0.0), 1e-5), "{}", positions[1]);
     assert!(positions[2].abs_diff_eq(Vec3::new(9.0, 0.0, 0.0), 1e-5), "{}", positions[2]);
+}
+
+#[test]
+fn far_meshes_lose_no_precision() {
+    let (mut document, binary) = square(4, &[0, 1, 2]);
+    document["nodes"][0]["scale"] = json!([1e-3, 1e-3, 1e-3]);
+    document["nodes"][0]["translation"] = json!([1e4, 0.0, -3e4]);
+    let model = read(&document, &binary).unwrap();
+    let p = &model.meshes[0].surface.positions;
+    assert!((p[1] - p[0]).abs_diff_eq(Vec3::X * 1e-3, 1e-9) && (p[2] - p[0]).abs_diff_eq(Vec3::Y * 1e-3, 1e-9));
+    assert_eq!(in_scene(&model)[0], Vec3::new(1e4, 0.0, -3e4));
 }
 
 #[test]
@@ -148,7 +164,7 @@ fn quantised_and_sparse_accessors() {
         "buffers": [{ "byteLength": binary.len() }]
     });
     let model = read(&document, &binary).unwrap();
-    assert_eq!(model.meshes[0].surface.positions, [Vec3::ZERO, Vec3::X, Vec3::NEG_Y]);
+    assert_eq!(in_scene(&model), [Vec3::ZERO, Vec3::X, Vec3::NEG_Y]);
 }
 
 #[test]
@@ -222,7 +238,7 @@ fn faults_are_named() {
                     { "mesh": 0, "scale": [1e38, 1, 1], "name": "far" }
                 ])
             },
-            "node far: vertex 0 is not at a finite place",
+            "node far: vertex 1 is not at a finite place",
         ),
         (&|d| d["meshes"][0]["primitives"][0]["attributes"] = json!({}), "has no POSITION"),
         (&|d| d["meshes"][0]["primitives"][0]["material"] = 0.into(), "refers to material 0"),
