@@ -12,6 +12,7 @@ pub mod prelude;
 mod render;
 pub mod settings;
 mod settings_asset;
+pub mod shown;
 pub mod sim;
 
 pub use settings_asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
