@@ -8,16 +8,16 @@ use crate::film::build::{CleanSurface, Surface, SurfaceSite};
 
 /// Texture coordinates further apart than this on the two sides of an edge make it a seam.
 const UV_SEAM: f32 = 1e-4;
-/// Texture coordinates that miss an affine continuation by more than this: one texel of a 1k texture.
+/// Texture coordinates may be blurred by this, one texel of a 1k texture.
 const UV_BEND: f32 = 1e-3;
 /// Directions (normals, tangents) further apart than this make an edge hard: about 20 degrees. Less is not a
 /// hard edge but the facets of a dense, flat-shaded scan.
 const DIRECTION_SEAM: f32 = 0.35;
-/// Directions that miss an affine continuation by more than this: about a degree.
+/// Directions may be blurred by this, about a degree.
 const DIRECTION_BEND: f32 = 0.015;
 /// Linear colours further apart than this make a colour border.
 const COLOR_SEAM: f32 = 0.02;
-/// Linear colours that miss an affine continuation by more than this.
+/// Linear colours may be blurred by this.
 const COLOR_BEND: f32 = 0.01;
 
 /// One attribute: a value at each corner of the clean triangles.
@@ -56,17 +56,22 @@ impl Attributes {
         Self { channels }
     }
 
-    /// Whether an attribute differs between the two sides of the edge, at either end.
-    pub fn jump(&self, h: HalfEdgeId, t: HalfEdgeId) -> bool {
+    /// Whether an attribute differs between the two sides of the edge, at either end; in an `exact` film even by
+    /// as little as the film's faces may blur.
+    pub fn jump(&self, h: HalfEdgeId, t: HalfEdgeId, exact: bool) -> bool {
         self.channels.iter().any(|c| {
-            let apart = |i: HalfEdgeId, j: HalfEdgeId| (c.values[i.index()] - c.values[j.index()]).length() > c.seam;
+            let limit = if exact { c.seam.min(c.bend) } else { c.seam };
+            let apart = |i: HalfEdgeId, j: HalfEdgeId| (c.values[i.index()] - c.values[j.index()]).length() > limit;
             apart(h, t.next()) || apart(h.next(), t)
         })
     }
 
-    /// Whether an attribute is not one affine function on the two triangles of a flat edge: whether triangles
-    /// across the edge would show it differently.
-    pub fn bend(&self, topology: &Topology, positions: &[Vec3], h: HalfEdgeId, t: HalfEdgeId) -> bool {
+    /// Whether film faces of edge length `target` that straddle a flat edge would show an attribute visibly
+    /// differently, because it is not one affine function on the two triangles.
+    ///
+    /// Across the edge the gradient jumps by the misfit at the far corner over its height; a face of width w in
+    /// the middle of which the edge lies misses the kink by w/4 of that.
+    pub fn bend(&self, topology: &Topology, positions: &[Vec3], h: HalfEdgeId, t: HalfEdgeId, target: f32) -> bool {
         let at = |h: HalfEdgeId| positions[topology.origin(h).index()];
         let (a, b, c, d) = (at(h), at(h.next()), at(h.previous()), at(t.previous()));
         let normal = (b - a).cross(c - a);
@@ -74,16 +79,19 @@ impl Attributes {
         if area <= 0.0 {
             return false;
         }
-        // Weights of the near triangle's corners at the far corner, and how far the far corner may be trusted:
-        // what counts is the error within the shallower of the two triangles.
+        // Affine weights of the near triangle's corners at the far corner.
         let far_b = (d - a).cross(c - a).dot(normal) / area;
         let far_c = (b - a).cross(d - a).dot(normal) / area;
-        let weights = (1.0 - far_b - far_c, far_b, far_c);
-        let trust = if far_c < -1.0 { -1.0 / far_c } else { 1.0 };
+        let far_a = 1.0 - far_b - far_c;
+        let base = a.distance(b).max(f32::MIN_POSITIVE);
+        let near_height = area.sqrt() / base;
+        let far_height = (b - a).cross(d - a).length() / base;
+        let width = target.min(2.0 * near_height).min(2.0 * far_height);
+        let blur = 0.25 * width / far_height.max(f32::MIN_POSITIVE);
         self.channels.iter().any(|channel| {
             let v = |h: HalfEdgeId| channel.values[h.index()];
-            let expected = v(h) * weights.0 + v(h.next()) * weights.1 + v(h.previous()) * weights.2;
-            (v(t.previous()) - expected).length() * trust > channel.bend
+            let expected = v(h) * far_a + v(h.next()) * far_b + v(h.previous()) * far_c;
+            (v(t.previous()) - expected).length() * blur > channel.bend
         })
     }
 }

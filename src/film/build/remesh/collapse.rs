@@ -15,6 +15,8 @@ pub(super) struct CollapseLimits {
     pub longest: f32,
     /// How far a feature edge may stray from its line.
     pub deviation: f32,
+    /// How far the middle of an edge may be from the surface.
+    pub stray: f32,
     /// Faces may get as bad as this, or as the worst was before.
     pub quality: f32,
     /// Stop at this many faces.
@@ -46,7 +48,10 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
         return false;
     }
     for (position, place) in meetings.into_iter().flatten() {
-        if keeps_features(mesh, h, place, limits) && keeps_shape(mesh, h, position, limits) {
+        if keeps_features(mesh, h, place, limits)
+            && keeps_shape(mesh, h, position, limits)
+            && keeps_close(mesh, h, position, place, limits)
+        {
             let kept = collapse(mesh, h);
             mesh.positions[kept.index()] = position;
             mesh.places[kept.index()] = place;
@@ -157,6 +162,26 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
         }
     }
     least >= limits.quality || least >= mesh.quality(a).min(mesh.quality(b))
+}
+
+/// No edge at the merged vertex cuts through a bend of the surface.
+fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, limits: CollapseLimits) -> bool {
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    [(a, b), (b, a)].into_iter().all(|(v, other)| {
+        mesh.position(v) == position
+            || mesh.topology.ring(v).all(|e| {
+                let n = mesh.topology.target(e);
+                if n == other || mesh.chain(e).is_some() {
+                    return true;
+                }
+                let start = match (place, mesh.place(n)) {
+                    (Place::Free(f), _) | (_, Place::Free(f)) => f,
+                    _ => mesh.corner(e).triangle,
+                };
+                let middle = position.midpoint(mesh.position(n));
+                mesh.stray_at(middle, start) <= limits.stray.max(mesh.stray(e))
+            })
+    })
 }
 
 /// Merges the origin of `h` into its target, which is returned. The one or two faces at the edge and the origin

@@ -8,28 +8,31 @@
 use bevy_math::Vec3;
 
 use super::attributes::Attributes;
+use super::noise;
 use super::topology::Topology;
 use crate::film::build::{CleanSurface, Surface};
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use crate::film::{FaceId, HalfEdgeId};
 
 /// Cosine of the crease angle, 30 degrees.
-const CREASE: f32 = 0.866;
+pub(super) const CREASE: f32 = 0.866;
 /// Cosine of the angle up to which two triangles count as coplanar, 1.5 degrees.
 const FLAT: f32 = 0.999_66;
-/// A prop whose triangles number less than this share of the film's is followed exactly everywhere.
-const LOW_POLY_SHARE: f32 = 0.4;
+/// A prop of so few triangles is followed exactly everywhere, whatever the film's number.
+const LOW_POLY: f32 = 500.0;
+/// So is one whose triangles number less than this share of the film's.
+const LOW_POLY_SHARE: f32 = 0.3;
 /// Elsewhere an edge is followed if its triangles stand at least so many target edges high over it.
 const LOW_POLY_HEIGHT: f32 = 1.5;
-/// Creases that hang together over less than so many target edges are noise of a scan.
-const SHORTEST_CREASE: f32 = 2.0;
+/// A sharp edge at a face with a side longer than so many target edges is no noise.
+const NOISE_FACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Free,
-    /// A sharp edge on a dense surface: kept if it is long enough.
-    Crease,
-    /// A border or a seam: kept, as a polyline that may be resampled.
-    Seam,
+    /// A sharp edge between faces smaller than the film's: a crease, unless it is a scan's noise.
+    Doubtful,
+    /// A crease, border or seam: kept, as a polyline that may be resampled.
+    Line,
     /// An edge of a low-poly prop: kept with both its ends.
     Exact,
 }
@@ -51,7 +54,7 @@ impl Features {
     ) -> Self {
         let attributes = Attributes::new(surface, clean);
         let positions = &clean.positions;
-        let low_poly = clean.triangles.len() as f32 <= LOW_POLY_SHARE * triangles;
+        let low_poly = clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
         let slot = |f: FaceId| {
             clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
         };
@@ -61,24 +64,30 @@ impl Features {
                 [topology.origin(h), topology.target(h), topology.opposite(h)].map(|v| positions[v.index()]);
             (b - a).cross(c - a).length() / (b - a).length().max(f32::MIN_POSITIVE)
         };
+        let is_small = |f: FaceId| {
+            f.half_edges().into_iter().all(|h| {
+                let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);
+                a.distance(b) < NOISE_FACE * target
+            })
+        };
         let mut kinds = vec![Kind::Free; 3 * topology.face_slots()];
         for h in topology.edges() {
             let Some(t) = topology.twin(h) else {
                 let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target;
-                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Seam };
+                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
                 continue;
             };
             let (f, g) = (h.face(), t.face());
             let cosine = normals[f.index()].dot(normals[g.index()]);
             let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target;
-            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t);
-            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t);
+            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t, exact);
+            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t, target);
             let kind = if exact && (seam || uneven()) {
                 Kind::Exact
             } else if seam {
-                Kind::Seam
+                Kind::Line
             } else if cosine < CREASE {
-                Kind::Crease
+                if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
             } else {
                 Kind::Free
             };
@@ -86,7 +95,7 @@ impl Features {
             kinds[t.index()] = kind;
         }
         let mut features = Self { kinds };
-        features.drop_short_creases(topology, positions, SHORTEST_CREASE * target);
+        noise::drop_noise(&mut features, topology, positions, target);
         features
     }
 
@@ -131,50 +140,15 @@ impl Features {
         patches
     }
 
-    fn drop_short_creases(&mut self, topology: &Topology, positions: &[Vec3], shortest: f32) {
-        let mut sets = Sets::new(topology.vertex_slots());
-        let creases: Vec<HalfEdgeId> = topology.edges().filter(|h| self.kinds[h.index()] == Kind::Crease).collect();
-        for &h in &creases {
-            sets.join(topology.origin(h), topology.target(h));
-        }
-        let mut lengths = vec![0.0; topology.vertex_slots()];
-        for &h in &creases {
-            let root = sets.root(topology.origin(h));
-            lengths[root.index()] +=
-                positions[topology.origin(h).index()].distance(positions[topology.target(h).index()]);
-        }
-        for &h in &creases {
-            if lengths[sets.root(topology.origin(h)).index()] < shortest {
-                self.kinds[h.index()] = Kind::Free;
-                if let Some(t) = topology.twin(h) {
-                    self.kinds[t.index()] = Kind::Free;
-                }
-            }
-        }
-    }
-}
-
-/// Disjoint sets of vertices.
-struct Sets {
-    parents: Vec<VertexId>,
-}
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self { parents: (0..count).map(VertexId::new).collect() }
+    pub(super) fn is_doubtful(&self, h: HalfEdgeId) -> bool {
+        self.kinds[h.index()] == Kind::Doubtful
     }
 
-    fn root(&mut self, mut v: VertexId) -> VertexId {
-        while self.parents[v.index()] != v {
-            let grandparent = self.parents[self.parents[v.index()].index()];
-            self.parents[v.index()] = grandparent;
-            v = grandparent;
+    /// The film need not follow the edge after all.
+    pub(super) fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
+        self.kinds[h.index()] = Kind::Free;
+        if let Some(t) = topology.twin(h) {
+            self.kinds[t.index()] = Kind::Free;
         }
-        v
-    }
-
-    fn join(&mut self, a: VertexId, b: VertexId) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a.max(b).index()] = a.min(b);
     }
 }

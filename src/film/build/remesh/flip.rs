@@ -15,38 +15,55 @@ pub(super) fn flip_edges(mesh: &mut WorkMesh) {
             return;
         }
         budget -= 1;
-        if is_better_flipped(mesh, h) {
-            flip(mesh, h);
-            if let Some(t) = mesh.topology.twin(h) {
-                queue.extend([h.next(), h.previous(), t.next(), t.previous()]);
-            }
+        if flip_if(mesh, h, is_better_delaunay)
+            && let Some(t) = mesh.topology.twin(h)
+        {
+            queue.extend([h.next(), h.previous(), t.next(), t.previous()]);
         }
     }
 }
 
-fn is_better_flipped(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
+/// Flips the edge between the faces (a, b, c) and (b, a, d) if `wanted`, given those four points, says so and
+/// neither features, topology nor a fold of the surface forbid it. Whether it was flipped.
+pub(super) fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) -> bool {
     let Some(t) = mesh.topology.twin(h) else { return false };
     if mesh.chain(h).is_some() {
         return false;
     }
     let topology = &mesh.topology;
-    let [a, b, c, d] = [topology.origin(h), topology.target(h), topology.opposite(h), topology.opposite(t)];
-    let [pa, pb, pc, pd] = [a, b, c, d].map(|v| mesh.position(v));
-    // Sum of the two angles over the edge above 180 degrees: sin(alpha + beta) < 0 (Delaunay).
-    let (u, v) = (pa - pc, pb - pc);
-    let (x, y) = (pb - pd, pa - pd);
+    let corners = [topology.origin(h), topology.target(h), topology.opposite(h), topology.opposite(t)];
+    let points = corners.map(|v| mesh.position(v));
+    if !wanted(points) {
+        return false;
+    }
+    let [a, b, c, d] = points;
+    let (f, g) = (mesh.area_vector(h.face()), mesh.area_vector(t.face()));
+    let mean = (f + g).normalize_or_zero();
+    let upright = |n: Vec3| n.dot(mean) > FOLD * n.length();
+    if !upright((a - d).cross(c - d)) || !upright((b - c).cross(d - c)) {
+        return false;
+    }
+    if topology.edge_between(corners[2], corners[3]).is_some() {
+        return false;
+    }
+    flip(mesh, h);
+    true
+}
+
+/// Whether the two angles over the edge sum to more than 180 degrees, and turning it raises the lower quality of
+/// the two faces (which on a bent pair the angles do not promise).
+fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
+    let (u, v) = (a - c, b - c);
+    let (x, y) = (b - d, a - d);
+    // sin(alpha + beta) < 0.
     let sum = u.cross(v).length() * x.dot(y) + u.dot(v) * x.cross(y).length();
     let scale = u.length() * v.length() * x.length() * y.length();
     if sum >= -1e-4 * scale {
         return false;
     }
-    let (f, g) = (mesh.area_vector(h.face()), mesh.area_vector(t.face()));
-    let (k, l) = ((pa - pd).cross(pc - pd), (pb - pc).cross(pd - pc));
-    let mean = (f + g).normalize_or_zero();
-    let upright = |n: Vec3| n.dot(mean) > FOLD * n.length();
-    let before = quality(pa, pb, pc).min(quality(pb, pa, pd));
-    let after = quality(pc, pd, pb).min(quality(pd, pc, pa));
-    upright(k) && upright(l) && after > before && topology.edge_between(c, d).is_none()
+    let before = quality(a, b, c).min(quality(b, a, d));
+    let after = quality(c, d, b).min(quality(d, c, a));
+    after > before
 }
 
 /// Turns the edge a-b between (a, b, c) and (b, a, d) into d-c. Face ids stay.

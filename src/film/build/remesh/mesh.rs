@@ -163,8 +163,23 @@ impl<'a> WorkMesh<'a> {
         f
     }
 
-    pub fn area(&self) -> f64 {
-        self.topology.faces().map(|f| 0.5 * f64::from(self.area_vector(f).length())).sum()
+    /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
+    /// their line.
+    pub fn stray(&self, h: HalfEdgeId) -> f32 {
+        if self.chain(h).is_some() {
+            return 0.0;
+        }
+        let (a, b) = (self.topology.origin(h), self.topology.target(h));
+        let start = match (self.place(a), self.place(b)) {
+            (Place::Free(f), _) | (_, Place::Free(f)) => f,
+            _ => self.corner(h).triangle,
+        };
+        self.stray_at(self.position(a).midpoint(self.position(b)), start)
+    }
+
+    /// Distance of `p` from the surface near the triangle `start`.
+    pub fn stray_at(&self, p: Vec3, start: FaceId) -> f32 {
+        project(self.reference, p, start).position.distance(p)
     }
 
     /// Least quality of the faces at `v` if it stood at `p`, or `None` if one of them would fold over. Faces that

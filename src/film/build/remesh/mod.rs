@@ -11,6 +11,8 @@ mod collapse;
 mod features;
 mod flip;
 mod mesh;
+mod noise;
+mod polish;
 mod project;
 mod reference;
 mod relax;
@@ -25,6 +27,7 @@ use self::collapse::CollapseLimits;
 use self::mesh::WorkMesh;
 use self::reference::Reference;
 use self::relax::Relaxation;
+use self::split::SplitLimits;
 use super::{BuildError, BuildWarning, BuiltFilm, CleanSurface, MAX_FILM_TRIANGLES, Surface};
 
 pub(super) use self::sites::keep;
@@ -34,8 +37,15 @@ const SPLIT: f32 = 4.0 / 3.0;
 const COLLAPSE: f32 = 4.0 / 5.0;
 /// How far a film edge may stray from its feature line, in target edges.
 const DEVIATION: f32 = 0.08;
+/// How far the middle of an edge may be from the surface, in target edges, before it is split, and after a
+/// collapse; and the shortest edge that is split for it.
+const STRAY_SPLIT: f32 = 0.2;
+const STRAY_COLLAPSE: f32 = 0.12;
+const STRAY_SHORTEST: f32 = 0.5;
 /// Rounds of split, collapse, flip and relax.
 const ROUNDS: usize = 12;
+/// Rounds of repairs of thin faces.
+const POLISH_ROUNDS: usize = 3;
 /// The first rounds shake the vertices.
 const SHAKEN_ROUNDS: usize = 4;
 /// Faces of this quality and better may be traded for evenness.
@@ -100,17 +110,10 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
     let mut edge = length;
     for round in 0..ROUNDS {
         let shaken = round < SHAKEN_ROUNDS;
-        let limits = CollapseLimits {
-            shortest: COLLAPSE * edge,
-            longest: SPLIT * edge,
-            deviation: DEVIATION * edge,
-            quality: 0.3,
-            fewest_faces: 4,
-        };
         let spread = if shaken { 0.4 } else { 0.0 };
-        split::split_long_edges(mesh, SPLIT * edge, spread, usize::MAX, rng);
+        split::split_edges(mesh, cuts(edge, spread), rng);
         flip::flip_edges(mesh);
-        collapse::collapse_short_edges(mesh, limits);
+        collapse::collapse_short_edges(mesh, limits(edge));
         flip::flip_edges(mesh);
         let jitter = if shaken { 0.25 * edge } else { 0.0 };
         relax_rounds(mesh, edge, jitter, 2, rng);
@@ -120,6 +123,27 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
         }
     }
     relax_rounds(mesh, edge, 0.0, 2, rng);
+    split::split_edges(mesh, cuts(edge, 0.0), rng);
+    flip::flip_edges(mesh);
+    for _ in 0..POLISH_ROUNDS {
+        let limits = CollapseLimits { shortest: edge, longest: 1.5 * edge, quality: 1.0, ..limits(edge) };
+        polish::polish(mesh, limits, edge);
+    }
+}
+
+fn cuts(edge: f32, spread: f32) -> SplitLimits {
+    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge, spread }
+}
+
+fn limits(edge: f32) -> CollapseLimits {
+    CollapseLimits {
+        shortest: COLLAPSE * edge,
+        longest: SPLIT * edge,
+        deviation: DEVIATION * edge,
+        stray: STRAY_COLLAPSE * edge,
+        quality: 0.3,
+        fewest_faces: 4,
+    }
 }
 
 fn relax_rounds(mesh: &mut WorkMesh, edge: f32, jitter: f32, rounds: usize, rng: &mut ChaCha8Rng) {

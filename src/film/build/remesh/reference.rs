@@ -11,8 +11,6 @@ use crate::film::{FaceId, HalfEdgeId, VertexId};
 pub(super) struct Reference<'a> {
     pub topology: Topology,
     pub positions: &'a [Vec3],
-    /// Unit normals of the triangles.
-    pub normals: Vec<Vec3>,
     /// The chain that each half-edge lies on, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
     pub chains: Chains,
@@ -38,7 +36,7 @@ impl<'a> Reference<'a> {
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);
-        Self { topology, positions, normals, chain_of, chains, fixed, patches }
+        Self { topology, positions, chain_of, chains, fixed, patches }
     }
 
     /// Whether the film must follow this edge.

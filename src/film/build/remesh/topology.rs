@@ -133,11 +133,6 @@ impl Topology {
         self.outgoing(v).is_some_and(|h| self.twin(h).is_none())
     }
 
-    /// Number of faces around the vertex.
-    pub fn face_valence(&self, v: VertexId) -> usize {
-        self.ring(v).count()
-    }
-
     /// Neighbours of the vertex, counter-clockwise.
     pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let last = self
