@@ -25,11 +25,11 @@ impl Orbit {
     pub fn of(view: View) -> Self {
         match view {
             View::Sign | View::All => Self {
-                centre: Vec3::new(-0.42, 1.66, -0.4),
-                distance: 2.45,
-                yaw: -0.16,
+                centre: Vec3::new(-0.36, 1.68, 0.0),
+                distance: 1.85,
+                yaw: -0.20,
                 pitch: -0.05,
-                field_of_view: 0.86,
+                field_of_view: 0.90,
             },
             View::Close => Self {
                 centre: Vec3::new(-0.10, 1.72, 0.0),

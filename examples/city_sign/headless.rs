@@ -6,7 +6,7 @@ use crate::graphics;
 use crate::scene::sky::Sky;
 use crate::weathering::{Loading, Pace};
 use bevy::app::ScheduleRunnerPlugin;
-use bevy::camera::RenderTarget;
+use bevy::camera::{RenderTarget, Viewport};
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
@@ -23,7 +23,9 @@ use std::time::{Duration, Instant};
 /// Samples along each side of a pixel.
 const SUPERSAMPLING: u32 = 2;
 /// Frames between showing a state and taking its picture: meshes and pipelines reach the screen late.
-const SETTLING_FRAMES: u32 = 5;
+const SETTLING_FRAMES: u32 = 6;
+/// The last of them are drawn in full, the others on a corner of the canvas.
+const FULL_FRAMES: u32 = 1;
 
 pub fn add(app: &mut App, options: &Options) {
     app.add_plugins(
@@ -101,6 +103,13 @@ impl Session {
     }
 }
 
+/// What is drawn while there is no picture to take: a software renderer needs seconds for a full frame, and
+/// the ageing needs the processor. (Switching the camera off instead would leave the renderer with stale
+/// material slots.)
+fn corner() -> Viewport {
+    Viewport { physical_size: UVec2::new(16, 9), ..default() }
+}
+
 #[derive(Component)]
 struct Canvas(Handle<Image>);
 
@@ -115,8 +124,7 @@ fn spawn_camera(mut commands: Commands, mut images: ResMut<Assets<Image>>, sky: 
     let canvas = images.add(canvas);
     commands.spawn((
         camera::view(&sky, Orbit::of(options.view)),
-        // Drawing waits for the picture: ageing needs the processor.
-        Camera { is_active: false, ..default() },
+        Camera { viewport: Some(corner()), ..default() },
         RenderTarget::Image(canvas.clone().into()),
         Canvas(canvas),
     ));
@@ -135,6 +143,7 @@ fn run(
         exit.write(if session.failed { AppExit::error() } else { AppExit::Success });
         return;
     };
+    eprintln!("DBG {:?} {:.2}", session.stage, session.started.elapsed().as_secs_f32());
     match session.stage {
         Stage::Loading => {
             pace.goal = Some(0.0);
@@ -151,8 +160,7 @@ fn run(
                 let orbit = Orbit::of(view);
                 *transform = orbit.transform();
                 *projection = orbit.projection();
-                camera.is_active = true;
-                session.say(format_args!("age {age:.2}: drawing"));
+                session.say(format_args!("age {age:.2}: drawing the {} view", format!("{view:?}").to_lowercase()));
                 session.stage = Stage::Settling(SETTLING_FRAMES);
             }
         }
@@ -160,12 +168,18 @@ fn run(
             session.stage = Stage::Shooting;
             commands.spawn(Screenshot::image(canvas.0.clone())).observe(keep);
         }
-        Stage::Settling(frames) => session.stage = Stage::Settling(frames - 1),
-        Stage::Shooting => {}
+        Stage::Settling(frames) => {
+            if frames <= FULL_FRAMES {
+                camera.viewport = None;
+            }
+            session.stage = Stage::Settling(frames - 1);
+        }
+        // The picture was drawn at the end of the frame before; only its way back takes time.
+        Stage::Shooting => camera.viewport = Some(corner()),
     }
 }
 
-fn keep(shot: On<ScreenshotCaptured>, mut session: ResMut<Session>, mut cameras: Query<&mut Camera, With<Canvas>>) {
+fn keep(shot: On<ScreenshotCaptured>, mut session: ResMut<Session>) {
     let Some((age, view)) = session.shots.pop_front() else { return };
     let file = session.file(age, view);
     match write(&shot.image, &file) {
@@ -177,9 +191,6 @@ fn keep(shot: On<ScreenshotCaptured>, mut session: ResMut<Session>, mut cameras:
             eprintln!("{}: {error}", file.display());
             session.failed = true;
         }
-    }
-    for mut camera in &mut cameras {
-        camera.is_active = false;
     }
     session.stage = Stage::Ageing;
 }

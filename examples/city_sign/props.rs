@@ -13,6 +13,8 @@ struct Prop {
     place: Transform,
     /// Names of painted nodes with the triangles of their films; empty: the prop does not age.
     painted: Vec<(&'static str, u32)>,
+    /// Multiplies the material's colour: toys' colours are too clean for this street.
+    tint: Color,
 }
 
 pub struct PropsPlugin;
@@ -33,16 +35,18 @@ fn tilted(transform: Transform, x_degrees: f32, z_degrees: f32) -> Transform {
 }
 
 fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>, mut loading: ResMut<Loading>) {
-    let prop = |file, place, painted: &[(&'static str, u32)]| Prop { file, place, painted: painted.to_vec() };
+    let dusty = Color::linear_rgb(0.50, 0.45, 0.40);
+    let prop = |file, place, painted: &[(&'static str, u32)]| Prop { file, place, painted: painted.to_vec(), tint: dusty };
+    let as_is = |prop| Prop { tint: Color::WHITE, ..prop };
     let props = [
-        prop(
+        as_is(prop(
             "city/street_sign.glb",
             Transform::default(),
             &[("plate", options.triangles), ("post_left", 1600), ("post_right", 1600)],
-        ),
+        )),
         prop("props/prop_firehydrant.glb", place(-1.02, 0.0, -2.3, 25.0, 3.5), &[("firehydrant", 3000)]),
-        prop("props/prop_car.glb", tilted(place(-5.2, ROAD + 0.30, -8.2, 28.0, 5.2), 0.0, 2.0), &[("car_hatchback", 5000)]),
-        prop("props/prop_container.glb", place(-2.5, ROAD, -5.6, 12.0, 4.6), &[("containers_A", 3000)]),
+        prop("props/prop_car.glb", tilted(place(-5.4, ROAD + 0.30, -9.4, 32.0, 5.2), 0.0, 2.0), &[("car_hatchback", 5000)]),
+        prop("props/prop_container.glb", place(-3.0, ROAD, -6.9, 12.0, 3.5), &[("containers_A", 3000)]),
         prop("props/prop_barrier.glb", tilted(place(-7.6, ROAD, -6.2, 100.0, 8.0), 0.0, 0.0), &[("construction-barrier", 1200)]),
         prop("props/prop_barrier.glb", tilted(place(-3.6, ROAD, -14.5, 75.0, 8.0), 0.0, 0.0), &[("construction-barrier", 1200)]),
         prop("props/prop_dumpster.glb", place(2.35, 0.02, -9.0, 78.0, 4.3), &[("dumpster", 3000)]),
@@ -58,11 +62,21 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
             move |ready: On<WorldInstanceReady>,
                   mut commands: Commands,
                   mut loading: ResMut<Loading>,
+                  mut materials: ResMut<Assets<StandardMaterial>>,
+                  surfaces: Query<&MeshMaterial3d<StandardMaterial>>,
                   children: Query<&Children>,
                   meshes: Query<&ChildOf, With<Mesh3d>>,
                   names: Query<&Name>| {
                 loading.loaded += 1;
                 for entity in children.iter_descendants(ready.entity) {
+                    if prop.tint != Color::WHITE
+                        && let Some(mut material) = surfaces.get(entity).ok().and_then(|m| materials.get(&m.0)).cloned()
+                    {
+                        let [base, tint] = [material.base_color, prop.tint].map(|c| c.to_linear().to_vec3());
+                        material.base_color = Color::LinearRgba(LinearRgba::from_vec3(base * tint));
+                        material.perceptual_roughness = 0.6;
+                        commands.entity(entity).insert(MeshMaterial3d(materials.add(material)));
+                    }
                     // A mesh hangs below the node that carries its name.
                     let Ok(parent) = meshes.get(entity) else { continue };
                     let Ok(name) = names.get(parent.parent()) else { continue };

@@ -105,7 +105,6 @@ impl MeshBuilder {
         self.indices.is_empty()
     }
 
-    pub fn counts(&self) -> (usize, usize) { (self.indices.len() / 3, self.positions.len()) }
     pub fn build(self) -> Mesh {
         let tangents = self.tangents();
         let colours: Vec<[f32; 4]> = self.colours.iter().map(|c| c.extend(1.0).to_array()).collect();

@@ -35,9 +35,7 @@ impl Plugin for ScenePlugin {
 }
 
 fn paint_sky(mut commands: Commands, mut images: ResMut<Assets<Image>>) {
-    eprintln!("DBG sky0 {:?}", std::time::SystemTime::now());
     commands.insert_resource(sky::Sky::paint(&mut images));
-    eprintln!("DBG sky1 {:?}", std::time::SystemTime::now());
 }
 
 /// What the builders share: where finished parts go, and the dice.
@@ -54,7 +52,6 @@ impl Site<'_, '_, '_> {
         if mesh.is_empty() {
             return;
         }
-        eprintln!("DBG {} tris {} verts {:?}", mesh.counts().0, mesh.counts().1, std::time::SystemTime::now());
         self.commands.spawn((Mesh3d(self.meshes.add(mesh.build())), MeshMaterial3d(material.clone())));
     }
 
@@ -70,9 +67,7 @@ fn build_street(
     mut materials: ResMut<Assets<StandardMaterial>>,
     mut images: ResMut<Assets<Image>>,
 ) {
-    eprintln!("DBG start {:?}", std::time::SystemTime::now());
     let surfaces = Surfaces::paint(&mut images);
-    eprintln!("DBG surfaces {:?}", std::time::SystemTime::now());
     let mut site = Site {
         commands: &mut commands,
         meshes: &mut meshes,

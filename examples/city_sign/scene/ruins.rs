@@ -107,6 +107,7 @@ fn raise(
         tint: building.tint,
         noise: noise.clone(),
         offset: offset + index * 9.7,
+        bearings: Vec::new(),
     };
     // Front, back and the two ends; local x runs along the wall seen from outside.
     let stand = |x: f32, z: f32, yaw: f32| building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw));
@@ -117,6 +118,7 @@ fn raise(
         (stand(0.0, -depth, -FRAC_PI_2), depth, near),
         (stand(width, -depth, 2.0 * FRAC_PI_2), width, true),
     ];
+    let mut standing = Vec::new();
     for (index, (place, length, openings)) in sides.into_iter().enumerate() {
         let wall = wall(length, height, openings, index as f32);
         wall.build(&place, faces, edges);
@@ -124,6 +126,7 @@ fn raise(
             ledges(&wall, &place, edges);
             reinforcement(site, &wall, &place, bars);
         }
+        standing.push((place, wall));
     }
     if !near {
         return;
@@ -136,7 +139,19 @@ fn raise(
         let place = building.place * Transform::from_xyz(0.2, storey as f32 * STOREY + 0.1, -0.2).with_rotation(lying);
         let mut floor = wall(width - 0.4, depth - 0.4, false, 6.0 + storey as f32);
         floor.thickness = 0.24;
-        floor.ruin = building.ruin * (0.75 + 0.35 * storey as f32);
+        floor.ruin = building.ruin * 0.4;
+        let level = storey as f32 * STOREY;
+        let back = place.to_matrix().inverse();
+        for (stand, wall) in &standing {
+            let steps = (wall.length / 0.5) as u32;
+            let points = (0..=steps).map(|i| Vec2::new(i as f32 * 0.5, level));
+            // The wall must stand well above the floor, or it has fallen with it.
+            let firm = points.filter(|at| wall.solid(*at - Vec2::Y * 0.5) > 0.1 && wall.solid(*at + Vec2::Y * 0.3) > 0.0);
+            floor.bearings.extend(firm.map(|at| back.transform_point3(stand.transform_point(at.extend(0.0))).truncate()));
+        }
+        if floor.bearings.is_empty() {
+            continue;
+        }
         floor.build(&place, faces, edges);
         reinforcement(site, &floor, &place, bars);
     }

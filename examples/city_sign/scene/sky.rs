@@ -13,8 +13,8 @@ use noise::{Fbm, MultiFractal, NoiseFn, Perlin};
 
 /// Luminance of 1 in [`radiance`], cd/m².
 const BRIGHTNESS: f32 = 1_500.0;
-const HAZE: Vec3 = Vec3::new(0.70, 0.545, 0.40);
-const ZENITH: Vec3 = Vec3::new(0.22, 0.27, 0.36);
+const HAZE: Vec3 = Vec3::new(0.56, 0.40, 0.27);
+const ZENITH: Vec3 = Vec3::new(0.15, 0.20, 0.29);
 const GLOW: Vec3 = Vec3::new(1.9, 1.15, 0.55);
 const GROUND: Vec3 = Vec3::new(0.20, 0.16, 0.115);
 
@@ -62,7 +62,7 @@ impl Sky {
                 color: linear(HAZE * BRIGHTNESS * Exposure::default().exposure()),
                 directional_light_color: Color::linear_rgb(0.9, 0.5, 0.2),
                 directional_light_exponent: 14.0,
-                falloff: FogFalloff::ExponentialSquared { density: 0.0115 },
+                falloff: FogFalloff::ExponentialSquared { density: 0.0125 },
             },
         )
     }
@@ -78,7 +78,7 @@ pub fn spawn_sun(mut commands: Commands) {
     commands.spawn((
         DirectionalLight {
             color: Color::linear_rgb(1.0, 0.74, 0.46),
-            illuminance: 21_000.0,
+            illuminance: 19_000.0,
             shadow_maps_enabled: true,
             shadow_depth_bias: 0.01,
             shadow_normal_bias: 1.0,
@@ -122,7 +122,7 @@ fn cloudy(direction: Vec3, clouds: &Fbm<Perlin>) -> Vec3 {
     let cover = ((here + 0.12) * 2.2).clamp(0.0, 1.0) * (height * 7.0).clamp(0.0, 1.0);
     let towards = Vec2::new(sun_direction().x, sun_direction().z) * 0.18;
     let lit = ((here - field(towards)) * 2.4 + 0.45).clamp(0.0, 1.0);
-    let cloud = Vec3::new(0.34, 0.31, 0.33).lerp(Vec3::new(1.05, 0.76, 0.52), lit);
+    let cloud = Vec3::new(0.22, 0.205, 0.225).lerp(Vec3::new(0.95, 0.64, 0.40), lit);
     clear.lerp(cloud * (0.75 + 0.5 * clear.length()), cover * 0.7)
 }
 

@@ -47,9 +47,9 @@ impl Surfaces {
         // Each is a second of one core's work at most; side by side they take less than the window to open.
         let [asphalt, pavement, plaster, concrete] = std::thread::scope(|scope| {
             [
-                scope.spawn(|| draw(1024, 5.0, asphalt)),
+                scope.spawn(|| draw(512, 3.2, asphalt)),
                 scope.spawn(|| draw(1024, 3.0, pavement)),
-                scope.spawn(|| draw(1024, 5.0, plaster)),
+                scope.spawn(|| draw(512, 5.0, plaster)),
                 scope.spawn(|| draw(512, 2.0, concrete)),
             ]
             .map(|thread| thread.join().unwrap_or_else(|_| draw(1, 1.0, |_| Texel { colour: Vec3::splat(0.3), height: 0.0 })))
@@ -74,11 +74,12 @@ fn asphalt(at: Vec2) -> Texel {
     let grain = gradient(at, 256, 1) * 0.5 + gradient(at, 128, 2) * 0.5;
     let worn = fractal(at, 5, 5, 3);
     let warp = Vec2::new(fractal(at, 8, 4, 4), fractal(at, 8, 4, 5)) * 0.02;
-    let wide = crack_distance(at + warp, 5, 6);
-    let fine = crack_distance(at + warp * 0.6, 17, 7) + smooth(-0.1, 0.35, worn) * 0.3;
-    let crack = (1.0 - smooth(0.012, 0.035, wide)).max((1.0 - smooth(0.02, 0.07, fine)) * 0.8);
+    // Long cracks that fade out, and crazing where the surface is worn most.
+    let wide = crack_distance(at + warp * 1.5, 3, 6) + smooth(-0.05, 0.3, fractal(at, 4, 3, 38)) * 0.2;
+    let fine = crack_distance(at + warp * 0.6, 13, 7) + smooth(-0.35, -0.1, worn) * 0.6;
+    let crack = (1.0 - smooth(0.004, 0.018, wide)).max((1.0 - smooth(0.02, 0.07, fine)) * 0.8);
     let colour = Vec3::splat(0.085) * (1.0 + 0.35 * grain + 0.35 * worn);
-    let dusty = smooth(-0.15, 0.75, fractal(at, 3, 5, 8) + 0.25 * grain) * 0.75;
+    let dusty = smooth(-0.25, 0.7, fractal(at, 3, 5, 8) + 0.25 * grain) * 0.7;
     let colour = colour.lerp(DUST * (0.9 + 0.2 * grain), dusty);
     Texel { colour: colour.lerp(Vec3::splat(0.022), crack), height: 0.003 * grain + 0.008 * worn - 0.016 * crack }
 }
@@ -98,8 +99,8 @@ fn pavement(at: Vec2) -> Texel {
     let worn = fractal(at, 6, 5, 13);
     let warp = Vec2::new(fractal(at, 9, 3, 14), fractal(at, 9, 3, 15)) * 0.03;
     // Some slabs only are cracked.
-    let broken = crack_distance(at + warp, 8, 16) + if cell(slab, 64, 17) > 0.45 { 1.0 } else { 0.0 };
-    let crack = 1.0 - smooth(0.015, 0.045, broken);
+    let broken = crack_distance(at + warp, 6, 16) + if cell(slab, 64, 17) > 0.3 { 1.0 } else { 0.0 };
+    let crack = 1.0 - smooth(0.006, 0.025, broken);
     let colour = Vec3::new(0.30, 0.285, 0.26) * (0.75 + 0.35 * tone + 0.16 * worn + 0.12 * grain);
     let dirt = smooth(0.05, 0.8, fractal(at, 4, 5, 18) + 0.3 * joint);
     let colour = colour.lerp(DUST * 0.7, dirt * 0.6).lerp(Vec3::new(0.06, 0.05, 0.035), joint.max(crack) * 0.85);
@@ -127,15 +128,16 @@ fn plaster(at: Vec2) -> Texel {
     let worn = fractal(at, 5, 6, 26);
     let gone = fractal(at, 3, 6, 27) + 0.12 * grain;
     let warp = Vec2::new(fractal(at, 8, 4, 28), fractal(at, 8, 4, 29)) * 0.025;
-    let crack = 1.0 - smooth(0.006, 0.03, crack_distance(at + warp, 6, 30));
+    let cracked = smooth(-0.12, 0.25, fractal(at, 4, 3, 39)) * 0.25;
+    let crack = 1.0 - smooth(0.004, 0.02, crack_distance(at + warp * 2.0, 5, 30) + cracked);
     // Rain has drawn dirt down the wall.
     let streak = fractal(Vec2::new(at.x, at.y * 0.0625), 48, 3, 31) * 0.5 + 0.5 * fractal(at, 4, 4, 32);
     let coat = Vec3::new(0.46, 0.42, 0.36) * (0.95 + 0.14 * worn + 0.08 * grain);
     let coat = coat.lerp(Vec3::new(0.17, 0.145, 0.115), smooth(-0.05, 0.75, streak) * 0.75);
-    let coat = coat.lerp(Vec3::splat(0.07), crack * 0.8);
-    let bare = smooth(0.24, 0.28, gone);
+    let coat = coat.lerp(Vec3::splat(0.09), crack * 0.7);
+    let bare = smooth(0.20, 0.235, gone);
     let bricks = brick(at, 20, 60);
-    let colour = coat.lerp(bricks.colour * (1.0 - 0.4 * (1.0 - smooth(0.27, 0.33, gone))), bare);
+    let colour = coat.lerp(bricks.colour * (1.0 - 0.4 * (1.0 - smooth(0.23, 0.30, gone))), bare);
     let height = 0.018 * (1.0 - bare) + 0.002 * grain + 0.005 * worn - 0.006 * crack * (1.0 - bare);
     Texel { colour, height: height + bricks.height * bare }
 }

@@ -24,6 +24,9 @@ pub struct Wall {
     pub noise: Fbm<Perlin>,
     /// Where in the noise this wall lies.
     pub offset: f32,
+    /// For a floor: points of its edge where the wall it rests on still stands. Without walls nothing carries
+    /// it beyond a short cantilever.
+    pub bearings: Vec<Vec2>,
 }
 
 impl Wall {
@@ -44,7 +47,13 @@ impl Wall {
             let outside = (w.min - at).max(at - w.max);
             outside.max_element() + torn
         });
-        windows.fold(top.min(ends).min(holes), f32::min)
+        let carried = if self.bearings.is_empty() {
+            f32::MAX
+        } else {
+            let nearest = self.bearings.iter().map(|b| b.distance_squared(at)).fold(f32::MAX, f32::min).sqrt();
+            2.3 - nearest + 2.2 * ragged
+        };
+        windows.fold(top.min(ends).min(holes).min(carried), f32::min)
     }
 
     /// Soot over the windows, damp at the foot, dust.
