@@ -7,6 +7,12 @@
 //! Nothing here knows Bevy: a [`Surface`] is plain arrays, so the same code serves the plugin, the bake tool
 //! and tests.
 
+pub mod clean;
+mod remesh;
+pub mod sample;
+
+pub use clean::{CleanSurface, clean};
+
 use bevy_math::{Vec2, Vec3, Vec4};
 
 /// The prop's own surface: the triangles of one connected prop (all primitives of one glTF node), in the
@@ -140,6 +146,8 @@ pub enum BuildWarning {
     NonManifoldEdgesSplit(u32),
     /// Vertices where sheets met in a point were split.
     NonManifoldVerticesSplit(u32),
+    /// Edges of one-sided shells (Möbius bands) that were cut where the two sides meet.
+    OneSidedEdgesCut(u32),
     /// Triangles whose winding was turned to agree with their shell.
     WindingTurned(u32),
     /// Feature lines are denser than the target edge: the film is finer there.
@@ -149,4 +157,37 @@ pub enum BuildWarning {
         /// Triangles there are.
         triangles: u32,
     },
+}
+
+/// Most triangles a film may have: 4 million, 400 times what a film of good looks needs.
+pub const MAX_FILM_TRIANGLES: usize = 1 << 22;
+
+/// Builds the film of a surface: cleans it, remeshes it to the resolution (or keeps it), and finds where each
+/// corner of the film lies on the surface. The seed draws the remeshing's irregularity; the same input and seed
+/// give the same film, to the bit.
+///
+/// # Errors
+/// Whatever [`clean()`] refuses; [`BuildError::Resolution`] for a resolution that makes no sense;
+/// [`BuildError::TooLarge`] for more than [`MAX_FILM_TRIANGLES`].
+pub fn build(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
+    let target = resolution.target()?;
+    let clean = clean(surface)?;
+    match target {
+        Some(target) => remesh::remesh(surface, &clean, target, seed),
+        None => remesh::keep(surface, &clean),
+    }
+}
+
+impl FilmResolution {
+    /// Checks the range. `None`: keep the mesh.
+    fn target(self) -> Result<Option<remesh::Target>, BuildError> {
+        let refuse = |found: String, range| Err(BuildError::Resolution { found, range });
+        match self {
+            Self::Keep => Ok(None),
+            Self::Triangles(n) if n < 4 => refuse(format!("{n} triangles"), "at least 4 triangles"),
+            Self::Triangles(n) => Ok(Some(remesh::Target::Count(n))),
+            Self::EdgeLength(l) if l.is_finite() && l > 0.0 => Ok(Some(remesh::Target::Length(l))),
+            Self::EdgeLength(l) => refuse(format!("edge length {l}"), "a finite edge length above 0"),
+        }
+    }
 }

@@ -1,0 +1,179 @@
+//! Cleaning: whatever triangles a prop has become an oriented manifold (VC 3.3 needs a half-edge mesh, and
+//! game props are rarely one).
+//!
+//! ```text
+//! Surface --validate--> --weld--> --drop duplicates--> --dissolve slivers--> faces over shared vertices
+//!         --pair faces along edges--> --unify winding--> --split fans--> CleanSurface
+//! ```
+//!
+//! Nothing is refused for its shape. What cannot be one manifold becomes several that touch: a closed cut is
+//! invisible in the film at rest, and paint does not know about it.
+//!
+//! - **Welding** merges vertices closer than 1e-5 of the bounding box's diagonal, but never vertices further
+//!   apart than a tenth of the shortest edge at either, so that thin sheets and small details survive.
+//! - **Triangles without area** are dissolved, not just dropped: exporters fill T-junctions with them, and
+//!   dropping one would open the surface along its long edge.
+//! - **Duplicates** with the same winding are dropped, the first is kept. Two triangles on the same vertices
+//!   with *opposite* winding are the two sides of a sheet that was modelled twice: both are kept, as two
+//!   sheets that are never joined to each other, so each side keeps its own texture and its own paint.
+//! - **Edges with more than two faces** keep the pairs that continue most smoothly; other faces get a border.
+//! - **Winding** is unified over each shell. The winding of the larger area wins, so outside stays outside.
+//!   A one-sided shell (Möbius) is cut where its two sides meet.
+//! - **Vertices** where several fans of faces meet get one duplicate for each further fan.
+
+mod duplicates;
+mod fans;
+mod orient;
+mod pair;
+mod sliver;
+mod validate;
+mod weld;
+
+#[cfg(test)]
+mod checker;
+#[cfg(test)]
+mod tests;
+
+use bevy_math::{DVec3, Vec3};
+
+use super::{BuildError, BuildWarning, Surface, SurfaceSite};
+
+pub use pair::twins;
+
+/// The index of no vertex or half-edge.
+const NONE: u32 = u32::MAX;
+
+/// A surface made an oriented manifold: every edge has one face, or two that run along it in opposite
+/// directions, and the faces of every vertex form one fan.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CleanSurface {
+    /// Vertex positions: the surface's own, welded, in the order of their first use by index; duplicates made
+    /// by splitting come last. Every vertex is used.
+    pub positions: Vec<Vec3>,
+    /// Vertex indices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// For each corner of each triangle, the corner `3 * t + k` of the surface whose attributes it has. All
+    /// three belong to the triangle's [`source`](Self::source), except at a vertex that ended a T-junction:
+    /// there it is the corner of the dissolved triangle that had filled the junction.
+    pub corners: Vec<[u32; 3]>,
+    /// Where each corner of each triangle lies on the surface, always on its [`source`](Self::source). The
+    /// weights are a unit vector except at a vertex that ended a T-junction.
+    pub sites: Vec<[SurfaceSite; 3]>,
+    /// The surface's triangle that each triangle is, or is a part of.
+    pub source: Vec<u32>,
+    /// Whether the triangle's winding is opposite to its source's.
+    pub flipped: Vec<bool>,
+    /// What was put right.
+    pub warnings: Vec<BuildWarning>,
+}
+
+/// One triangle on its way through the stages.
+#[derive(Clone, Debug)]
+struct Face {
+    /// Welded vertices.
+    vertices: [u32; 3],
+    /// Surface corners, see [`CleanSurface::corners`].
+    corners: [u32; 3],
+    /// Weights in the source triangle.
+    weights: [Vec3; 3],
+    source: u32,
+    flipped: bool,
+}
+
+impl Face {
+    /// Reverses the winding; half-edges 0 and 2 change places.
+    fn turn(&mut self) {
+        self.vertices.swap(1, 2);
+        self.corners.swap(1, 2);
+        self.weights.swap(1, 2);
+        self.flipped = !self.flipped;
+    }
+
+    fn points(&self, positions: &[Vec3]) -> [DVec3; 3] {
+        self.vertices.map(|v| positions[v as usize].as_dvec3())
+    }
+}
+
+/// Cleans a surface.
+///
+/// Deterministic, O(n log n). Positions may have any magnitude; all decisions are made in double precision.
+///
+/// # Errors
+/// [`BuildError`] when there are no triangles or too many, an attribute has the wrong length, a triangle
+/// refers to a vertex that does not exist or is not finite, or no triangle has any area.
+pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
+    validate::validate(surface)?;
+    let welded = weld::weld(surface);
+    let mut positions = welded.positions;
+
+    let mut faces = Vec::with_capacity(surface.triangles.len());
+    for (t, triangle) in surface.triangles.iter().enumerate() {
+        let vertices = triangle.map(|v| welded.vertex_of[v as usize]);
+        if has_repeats(vertices) {
+            continue;
+        }
+        let t = t as u32;
+        faces.push(Face {
+            vertices,
+            corners: [3 * t, 3 * t + 1, 3 * t + 2],
+            weights: [Vec3::X, Vec3::Y, Vec3::Z],
+            source: t,
+            flipped: false,
+        });
+    }
+    let points_and_lines = surface.triangles.len() - faces.len();
+    let duplicates = duplicates::drop_duplicates(&mut faces);
+    let degenerate = points_and_lines + sliver::dissolve(&mut faces, &positions, welded.tolerance);
+    if faces.is_empty() {
+        return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });
+    }
+
+    // Windings are unified over the manifold parts first: pairing faces along edges with more than two of
+    // them relies on windings.
+    let edges = pair::Edges::new(&faces);
+    let mut twin = edges.pair_manifold(&faces);
+    let mut cut = orient::unify(&mut faces, &mut twin, &positions);
+    let edges = pair::Edges::new(&faces);
+    edges.pair_others(&faces, &positions, &mut twin);
+    cut += orient::unify(&mut faces, &mut twin, &positions);
+    let split = fans::split(&mut faces, &mut twin, &mut positions, &edges);
+
+    let warnings = [
+        (degenerate, BuildWarning::DegenerateDropped as fn(u32) -> _),
+        (duplicates, BuildWarning::DuplicatesDropped),
+        (edges.non_manifold(), BuildWarning::NonManifoldEdgesSplit),
+        (split, BuildWarning::NonManifoldVerticesSplit),
+        (cut, BuildWarning::OneSidedEdgesCut),
+        (faces.iter().filter(|face| face.flipped).count(), BuildWarning::WindingTurned),
+    ];
+    let warnings = warnings.into_iter().filter(|(count, _)| *count > 0).map(|(count, warning)| warning(count as u32));
+    Ok(collect(faces, &positions, warnings.collect()))
+}
+
+/// Drops unused vertices and takes the faces apart into flat arrays.
+fn collect(faces: Vec<Face>, positions: &[Vec3], warnings: Vec<BuildWarning>) -> CleanSurface {
+    let mut used = vec![false; positions.len()];
+    for face in &faces {
+        for v in face.vertices {
+            used[v as usize] = true;
+        }
+    }
+    let mut clean = CleanSurface { warnings, ..Default::default() };
+    let mut new_index = vec![NONE; positions.len()];
+    for (v, position) in positions.iter().enumerate().filter(|(v, _)| used[*v]) {
+        new_index[v] = clean.positions.len() as u32;
+        clean.positions.push(*position);
+    }
+    for face in faces {
+        clean.triangles.push(face.vertices.map(|v| new_index[v as usize]));
+        clean.corners.push(face.corners);
+        clean.sites.push(face.weights.map(|weights| SurfaceSite { triangle: face.source, weights }));
+        clean.source.push(face.source);
+        clean.flipped.push(face.flipped);
+    }
+    clean
+}
+
+fn has_repeats([a, b, c]: [u32; 3]) -> bool {
+    a == b || b == c || c == a
+}

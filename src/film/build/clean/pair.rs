@@ -1,0 +1,144 @@
+//! Which face continues which across an edge. Half-edge `3f + k` runs from corner `k` of face `f` to the next.
+
+use bevy_math::{DVec3, Vec3};
+
+use super::{Face, NONE};
+
+/// For each half-edge `3f + k` of the triangles (from corner `k` to the next), the half-edge that runs the
+/// other way along the same edge; `u32::MAX` at borders, and at edges that are not manifold.
+pub fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut twin = vec![NONE; 3 * triangles.len()];
+    for run in sorted_half_edges(triangles.iter().copied()).chunk_by(|a, b| a.0 == b.0) {
+        if let &[(_, g), (_, h)] = run
+            && start(triangles, g) != start(triangles, h)
+        {
+            (twin[g as usize], twin[h as usize]) = (h, g);
+        }
+    }
+    twin
+}
+
+fn start(triangles: &[[u32; 3]], h: u32) -> u32 {
+    triangles[h as usize / 3][h as usize % 3]
+}
+
+/// Half-edges with their unordered pair of vertices, sorted by it and then by index.
+pub(super) fn sorted_half_edges(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<((u32, u32), u32)> {
+    let mut half_edges: Vec<_> = triangles
+        .enumerate()
+        .flat_map(|(f, [a, b, c])| {
+            [(a, b), (b, c), (c, a)].into_iter().zip(3 * f as u32..).map(|((a, b), h)| ((a.min(b), a.max(b)), h))
+        })
+        .collect();
+    half_edges.sort_unstable();
+    half_edges
+}
+
+/// All half-edges, those of one edge next to each other.
+pub(super) struct Edges {
+    half_edges: Vec<((u32, u32), u32)>,
+}
+
+impl Edges {
+    pub fn new(faces: &[Face]) -> Self {
+        Self { half_edges: sorted_half_edges(faces.iter().map(|face| face.vertices)) }
+    }
+
+    fn runs(&self) -> impl Iterator<Item = &[((u32, u32), u32)]> {
+        self.half_edges.chunk_by(|a, b| a.0 == b.0)
+    }
+
+    /// The edges with more than two faces.
+    pub fn non_manifold_edges(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.runs().filter(|run| run.len() > 2).map(|run| run[0].0)
+    }
+
+    pub fn non_manifold(&self) -> usize {
+        self.non_manifold_edges().count()
+    }
+
+    /// Twins across the edges with exactly two faces, whatever their winding.
+    pub fn pair_manifold(&self, faces: &[Face]) -> Vec<u32> {
+        let mut twin = vec![NONE; 3 * faces.len()];
+        for run in self.runs() {
+            if let &[(_, g), (_, h)] = run
+                && !back_to_back(&faces[g as usize / 3], &faces[h as usize / 3])
+            {
+                (twin[g as usize], twin[h as usize]) = (h, g);
+            }
+        }
+        twin
+    }
+
+    /// Twins across the edges with more than two faces, the smoothest continuation first. Pairs that agree in
+    /// winding come before pairs that do not, and the latter are joined only where they do not fold back.
+    pub fn pair_others(&self, faces: &[Face], positions: &[Vec3], twin: &mut [u32]) {
+        for run in self.runs().filter(|run| run.len() > 2) {
+            let pages: Vec<_> =
+                run.iter().map(|&((a, b), h)| Page::new(&faces[h as usize / 3], h, a, b, positions)).collect();
+            let mut pairs = Vec::new();
+            for (i, p) in pages.iter().enumerate() {
+                for q in &pages[i + 1..] {
+                    if back_to_back(&faces[p.half_edge as usize / 3], &faces[q.half_edge as usize / 3]) {
+                        continue;
+                    }
+                    let agree = p.forward != q.forward;
+                    let flatness = -p.direction.dot(q.direction);
+                    if agree || flatness >= 0.0 {
+                        pairs.push((agree, flatness, p.convex(q), p.half_edge, q.half_edge));
+                    }
+                }
+            }
+            // Stable: ties stay in the order of the faces.
+            pairs.sort_by(|a, b| b.0.cmp(&a.0).then(compare_flatness(b.1, a.1)).then(b.2.cmp(&a.2)));
+            for (_, _, _, g, h) in pairs {
+                if twin[g as usize] == NONE && twin[h as usize] == NONE {
+                    (twin[g as usize], twin[h as usize]) = (h, g);
+                }
+            }
+        }
+    }
+}
+
+/// Two faces on the same vertices: the two sides of a sheet modelled twice.
+fn back_to_back(a: &Face, b: &Face) -> bool {
+    a.vertices.iter().all(|v| b.vertices.contains(v))
+}
+
+/// In steps of about a ten-thousandth, so that rounding does not decide between symmetric pairs.
+fn compare_flatness(a: f64, b: f64) -> std::cmp::Ordering {
+    let step = |x: f64| (x * 1e4).round();
+    step(a).total_cmp(&step(b))
+}
+
+/// A face as a page of the book whose spine is the edge.
+struct Page {
+    half_edge: u32,
+    /// Whether the face runs along the spine from its lower to its higher vertex.
+    forward: bool,
+    /// Unit vector into the face, perpendicular to the spine.
+    direction: DVec3,
+    /// Outward unit normal, or zero.
+    normal: DVec3,
+}
+
+impl Page {
+    fn new(face: &Face, half_edge: u32, low: u32, high: u32, positions: &[Vec3]) -> Self {
+        let point = |v: u32| positions[v as usize].as_dvec3();
+        let k = half_edge as usize % 3;
+        let spine = (point(high) - point(low)).normalize_or_zero();
+        let into = point(face.vertices[(k + 2) % 3]) - point(low);
+        let [a, b, c] = face.points(positions);
+        Self {
+            half_edge,
+            forward: face.vertices[k] == low,
+            direction: (into - spine * into.dot(spine)).normalize_or_zero(),
+            normal: (b - a).cross(c - a).normalize_or_zero(),
+        }
+    }
+
+    /// Whether the two bound solid between them: each lies behind the other.
+    fn convex(&self, other: &Page) -> bool {
+        self.normal.dot(other.direction) < 1e-4 && other.normal.dot(self.direction) < 1e-4
+    }
+}

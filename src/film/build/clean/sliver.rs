@@ -1,0 +1,217 @@
+//! Triangles with three vertices but no area. Dropping one would tear the surface open, so it is dissolved
+//! into its neighbours:
+//!
+//! - a *needle*, whose two corners coincide: its short edge is collapsed;
+//! - a *cap*, whose middle vertex lies on its long edge (what fills a T-junction): every other face at the
+//!   long edge is split at that vertex. In a manifold this is an edge flip.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use bevy_math::{DVec3, Vec3};
+
+use super::{Face, has_repeats};
+
+/// A triangle has no area when its altitude is below this part of its longest edge (and the welding
+/// tolerance): a ten-thousandth of a degree. CAD slivers are much fatter, and are left to the remesher.
+const ALTITUDE: f64 = 1e-6;
+
+/// Dissolves slivers in place; returns how many there were. There must be no duplicates.
+pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64) -> usize {
+    let queue: BinaryHeap<_> =
+        (0..faces.len()).filter_map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f)))).collect();
+    let count = queue.len();
+    if count == 0 {
+        return 0;
+    }
+    let mut work = Dissolver::new(faces, positions, tolerance, queue);
+    // Each step shortens an edge or removes a face. Nearly flat clusters of slivers might still go round in
+    // circles through rounding; what is left after the bound stays as it is, thin but watertight.
+    let mut steps = 16 * count + 64;
+    while steps > 0
+        && let Some((_, Reverse(f))) = work.queue.pop()
+    {
+        work.step(f);
+        steps -= 1;
+    }
+    let mut dead = work.dead.into_iter();
+    faces.retain(|_| !dead.next().unwrap_or(false));
+    count
+}
+
+/// How a triangle has no area.
+struct Sliver {
+    /// Its longest edge runs from this corner to the next.
+    long: usize,
+    /// Where the third corner lies along the longest edge, 0 to 1.
+    along: f64,
+    length: f64,
+    /// Which end the third corner coincides with, if it does: 0 or 1.
+    needle: Option<usize>,
+}
+
+impl Sliver {
+    /// Longest first: then the face beyond the long edge is rarely a sliver itself. Lengths are not negative,
+    /// so their bits are in order.
+    fn rank(&self) -> u64 {
+        self.length.to_bits()
+    }
+}
+
+fn sliver(face: &Face, positions: &[Vec3], tolerance: f64) -> Option<Sliver> {
+    let p = face.points(positions);
+    let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
+    let long = (0..3).fold(0, |best, k| if lengths[k] > lengths[best] { k } else { best });
+    let (a, b, c) = (p[long], p[(long + 1) % 3], p[(long + 2) % 3]);
+    let length = lengths[long];
+    let altitude = (b - a).cross(c - a).length() / length;
+    // Coordinates are rounded to f32, which alone may lift the middle vertex off the edge.
+    let rounding = 2.0 * f64::from(f32::EPSILON) * p.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs())).max_element();
+    let limit = (ALTITUDE * length).min(tolerance).max(rounding);
+    if altitude > limit {
+        return None;
+    }
+    let short = [lengths[(long + 2) % 3], lengths[(long + 1) % 3]];
+    let end = usize::from(short[1] < short[0]);
+    Some(Sliver {
+        long,
+        along: ((c - a).dot(b - a) / (length * length)).clamp(0.0, 1.0),
+        length,
+        needle: (short[end] <= 2.0 * limit).then_some(end),
+    })
+}
+
+/// Faces by rank, then lowest index.
+type Queue = BinaryHeap<(u64, Reverse<usize>)>;
+
+struct Dissolver<'a> {
+    faces: &'a mut Vec<Face>,
+    positions: &'a [Vec3],
+    tolerance: f64,
+    dead: Vec<bool>,
+    /// Vertices, sorted, that each face had, or that it is a part of had, before any change.
+    origin: Vec<[u32; 3]>,
+    /// Faces at each vertex, in no order that matters; may hold dead or former ones.
+    at_vertex: Vec<Vec<u32>>,
+    queue: Queue,
+}
+
+impl<'a> Dissolver<'a> {
+    fn new(faces: &'a mut Vec<Face>, positions: &'a [Vec3], tolerance: f64, queue: Queue) -> Self {
+        let mut at_vertex = vec![Vec::new(); positions.len()];
+        for (f, face) in faces.iter().enumerate() {
+            for v in face.vertices {
+                at_vertex[v as usize].push(f as u32);
+            }
+        }
+        let dead = vec![false; faces.len()];
+        let origin = faces.iter().map(|face| sorted(face.vertices)).collect();
+        Self { faces, positions, tolerance, dead, origin, at_vertex, queue }
+    }
+
+    fn step(&mut self, f: usize) {
+        if self.dead[f] {
+            return;
+        }
+        // The face may have changed since it was queued.
+        let Some(sliver) = sliver(&self.faces[f], self.positions, self.tolerance) else { return };
+        let corner = |k: usize| (sliver.long + k) % 3;
+        let [a, b, c] = [0, 1, 2].map(|k| self.faces[f].vertices[corner(k)]);
+        match sliver.needle {
+            Some(end) => {
+                let other = [a, b][end];
+                self.collapse(c.max(other), c.min(other));
+            }
+            None => {
+                self.dead[f] = true;
+                let apex = (c, self.faces[f].corners[corner(2)]);
+                for g in self.live_faces_with(a, b) {
+                    self.split(g, a, b, apex, sliver.along);
+                }
+            }
+        }
+    }
+
+    fn live_faces_with(&self, a: u32, b: u32) -> Vec<usize> {
+        let mut found: Vec<_> = self.at_vertex[a as usize]
+            .iter()
+            .map(|&g| g as usize)
+            .filter(|&g| !self.dead[g] && self.faces[g].vertices.contains(&a) && self.faces[g].vertices.contains(&b))
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    fn collapse(&mut self, from: u32, to: u32) {
+        let mut moved = std::mem::take(&mut self.at_vertex[from as usize]);
+        moved.sort_unstable();
+        moved.dedup();
+        moved.retain(|&g| !self.dead[g as usize] && self.faces[g as usize].vertices.contains(&from));
+        for &g in &moved {
+            let vertices = &mut self.faces[g as usize].vertices;
+            *vertices = vertices.map(|v| if v == from { to } else { v });
+            self.at_vertex[to as usize].push(g);
+        }
+        for g in moved {
+            self.settle(g as usize);
+        }
+    }
+
+    /// Splits face `g` at the vertex `apex` (with its surface corner) that lies on its edge `a`, `b`, at
+    /// `along` from `a`.
+    fn split(&mut self, g: usize, a: u32, b: u32, apex: (u32, u32), along: f64) {
+        let place = |v: u32| self.faces[g].vertices.iter().position(|w| *w == v);
+        let (Some(i), Some(j)) = (place(a), place(b)) else { return };
+        let mut half = self.faces[g].clone();
+        let weight = half.weights[i].lerp(half.weights[j], along as f32);
+        // `g` keeps `a`, the new half keeps `b`.
+        for (face, k) in [(&mut self.faces[g], j), (&mut half, i)] {
+            face.vertices[k] = apex.0;
+            face.corners[k] = apex.1;
+            face.weights[k] = weight;
+        }
+        let new = self.faces.len();
+        for v in half.vertices {
+            self.at_vertex[v as usize].push(new as u32);
+        }
+        self.at_vertex[apex.0 as usize].push(g as u32);
+        self.faces.push(half);
+        self.origin.push(self.origin[g]);
+        self.dead.push(false);
+        self.settle(g);
+        self.settle(new);
+    }
+
+    /// After a change: drops the face if a vertex repeats or another face has come to lie on it, queues it if
+    /// it has no area.
+    fn settle(&mut self, g: usize) {
+        if self.dead[g] {
+            return;
+        }
+        if has_repeats(self.faces[g].vertices) {
+            self.dead[g] = true;
+        } else if let Some(other) = self.folded_onto(g) {
+            // The two have become a flap without volume; the faces around it meet where it was.
+            self.dead[g] = true;
+            self.dead[other] = true;
+        } else if let Some(sliver) = sliver(&self.faces[g], self.positions, self.tolerance) {
+            self.queue.push((sliver.rank(), Reverse(g)));
+        }
+    }
+
+    /// Another face on the same vertices, unless the two were the sides of one sheet from the start.
+    fn folded_onto(&self, g: usize) -> Option<usize> {
+        let vertices = sorted(self.faces[g].vertices);
+        let others = self.at_vertex[vertices[0] as usize].iter().map(|&h| h as usize);
+        others
+            .filter(|&h| h != g && !self.dead[h] && self.origin[h] != self.origin[g])
+            .filter(|&h| sorted(self.faces[h].vertices) == vertices)
+            .min()
+    }
+}
+
+fn sorted(mut vertices: [u32; 3]) -> [u32; 3] {
+    vertices.sort_unstable();
+    vertices
+}

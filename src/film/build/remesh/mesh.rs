@@ -1,0 +1,238 @@
+//! The film while it is being remeshed: connectivity, positions, and where each vertex lies on the surface.
+
+use bevy_math::Vec3;
+
+use super::chains::NO_CHAIN;
+use super::project::{Foot, project};
+use super::reference::Reference;
+use super::topology::Topology;
+use crate::film::{FaceId, HalfEdgeId, VertexId};
+
+/// How a vertex is bound to the clean surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Place {
+    /// At a vertex of the clean mesh: it never moves.
+    Fixed(VertexId),
+    /// On a feature line at an arc length: it moves along the line.
+    Line { chain: u32, s: f32 },
+    /// On a triangle: it moves over the patch.
+    Free(FaceId),
+}
+
+pub(super) struct WorkMesh<'a> {
+    pub reference: &'a Reference<'a>,
+    pub topology: Topology,
+    pub positions: Vec<Vec3>,
+    pub places: Vec<Place>,
+    /// The chain that each half-edge follows, or [`NO_CHAIN`].
+    pub chain_of: Vec<u32>,
+    /// The patch that each face lies in.
+    pub patches: Vec<u32>,
+}
+
+impl<'a> WorkMesh<'a> {
+    /// Starts from the clean mesh itself.
+    pub fn new(reference: &'a Reference<'a>) -> Self {
+        let topology = reference.topology.clone();
+        let mut places: Vec<Place> = (0..topology.vertex_slots())
+            .map(VertexId::new)
+            .map(|v| match topology.outgoing(v) {
+                Some(h) if !reference.fixed[v.index()] => Place::Free(h.face()),
+                _ => Place::Fixed(v),
+            })
+            .collect();
+        for chain in 0..reference.chains.count() {
+            for (v, s) in reference.chains.points(chain) {
+                if !reference.fixed[v.index()] {
+                    places[v.index()] = Place::Line { chain, s };
+                }
+            }
+        }
+        Self {
+            reference,
+            topology,
+            positions: reference.positions.to_vec(),
+            places,
+            chain_of: reference.chain_of.clone(),
+            patches: reference.patches.clone(),
+        }
+    }
+
+    #[inline]
+    pub fn position(&self, v: VertexId) -> Vec3 {
+        self.positions[v.index()]
+    }
+
+    #[inline]
+    pub fn place(&self, v: VertexId) -> Place {
+        self.places[v.index()]
+    }
+
+    /// The chain that the edge follows, if it is a feature.
+    #[inline]
+    pub fn chain(&self, h: HalfEdgeId) -> Option<u32> {
+        Some(self.chain_of[h.index()]).filter(|&c| c != NO_CHAIN)
+    }
+
+    pub fn set_chain(&mut self, h: HalfEdgeId, chain: Option<u32>) {
+        self.chain_of[h.index()] = chain.unwrap_or(NO_CHAIN);
+    }
+
+    #[inline]
+    pub fn length(&self, h: HalfEdgeId) -> f32 {
+        self.position(self.topology.origin(h)).distance(self.position(self.topology.target(h)))
+    }
+
+    /// Twice the area of the face times its unit normal.
+    #[inline]
+    pub fn area_vector(&self, f: FaceId) -> Vec3 {
+        let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
+        (b - a).cross(c - a)
+    }
+
+    /// Arc length of a vertex on a chain that passes or ends there.
+    pub fn arc_length(&self, v: VertexId, chain: u32) -> f32 {
+        match self.place(v) {
+            Place::Line { s, .. } => s,
+            Place::Fixed(v) => self.reference.chains.end(chain, v),
+            Place::Free(_) => 0.0,
+        }
+    }
+
+    /// The point of the surface under the face corner from which `h` leaves, on the face's own side of every
+    /// feature.
+    ///
+    /// Turning clockwise about the vertex one meets the feature edge that opens the corner's sector; the film runs
+    /// the same way round as the surface, so the same side of the same chain opens the sector on the surface.
+    pub fn corner(&self, h: HalfEdgeId) -> Foot {
+        let v = self.topology.origin(h);
+        let position = self.position(v);
+        if let Place::Free(start) = self.place(v) {
+            return project(self.reference, position, start);
+        }
+        let mut opening = h;
+        while self.chain(opening).is_none() {
+            match self.topology.clockwise(opening) {
+                Some(next) if next != h => opening = next,
+                _ => break,
+            }
+        }
+        let side = self.chain(opening).and_then(|chain| {
+            let (here, there) = (self.arc_length(v, chain), self.arc_length(self.topology.target(opening), chain));
+            self.reference.chains.side(chain, here, here < there)
+        });
+        let Some(side) = side else {
+            // A fixed vertex without features: an isolated one.
+            let start = match self.place(v) {
+                Place::Fixed(v) => self.reference.topology.outgoing(v).map(HalfEdgeId::face),
+                _ => None,
+            };
+            return project(self.reference, position, start.unwrap_or(FaceId(0)));
+        };
+        let k = side.half_edge.index() % 3;
+        let mut weights = [0.0; 3];
+        weights[k] = 1.0 - side.fraction;
+        weights[(k + 1) % 3] = side.fraction;
+        Foot { triangle: side.half_edge.face(), position, weights: Vec3::from_array(weights) }
+    }
+
+    /// Adds a vertex; its connectivity is the caller's.
+    pub fn add_vertex(&mut self, position: Vec3, place: Place) -> VertexId {
+        let v = self.topology.add_vertex();
+        if v.index() == self.positions.len() {
+            self.positions.push(position);
+            self.places.push(place);
+        } else {
+            self.positions[v.index()] = position;
+            self.places[v.index()] = place;
+        }
+        v
+    }
+
+    pub fn add_face(&mut self, corners: [VertexId; 3], patch: u32) -> FaceId {
+        let f = self.topology.add_face(corners);
+        if f.index() == self.patches.len() {
+            self.patches.push(patch);
+            self.chain_of.extend([NO_CHAIN; 3]);
+        } else {
+            self.patches[f.index()] = patch;
+            for h in f.half_edges() {
+                self.set_chain(h, None);
+            }
+        }
+        f
+    }
+
+    /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
+    /// their line.
+    pub fn stray(&self, h: HalfEdgeId) -> f32 {
+        if self.chain(h).is_some() {
+            return 0.0;
+        }
+        let (a, b) = (self.topology.origin(h), self.topology.target(h));
+        let start = match (self.place(a), self.place(b)) {
+            (Place::Free(f), _) | (_, Place::Free(f)) => f,
+            _ => self.corner(h).triangle,
+        };
+        self.stray_at(self.position(a).midpoint(self.position(b)), start)
+    }
+
+    /// How far the edges at a vertex are from the surface at most.
+    pub fn stray_around(&self, v: VertexId) -> f32 {
+        self.topology.ring(v).map(|h| self.stray(h)).fold(0.0, f32::max)
+    }
+
+    /// Whether the faces at a vertex are far from coplanar.
+    pub fn is_bent(&self, v: VertexId) -> bool {
+        let normal: Vec3 = self.topology.faces_around(v).map(|f| self.area_vector(f)).sum();
+        let normal = normal.normalize_or_zero();
+        self.topology.faces_around(v).map(|f| self.area_vector(f)).any(|n| n.dot(normal) < BENT * n.length())
+    }
+
+    /// Distance of `p` from the surface near the triangle `start`.
+    pub fn stray_at(&self, p: Vec3, start: FaceId) -> f32 {
+        project(self.reference, p, start).position.distance(p)
+    }
+
+    /// Least quality of the faces at `v` if it stood at `p`, or `None` if one of them would fold over. Faces that
+    /// `skip` names are left out.
+    pub fn quality_at(&self, v: VertexId, p: Vec3, skip: [Option<FaceId>; 2]) -> Option<f32> {
+        let mut least = f32::MAX;
+        for h in self.topology.ring(v) {
+            if skip.contains(&Some(h.face())) {
+                continue;
+            }
+            let (a, b) = (self.position(self.topology.target(h)), self.position(self.topology.opposite(h)));
+            let before = self.area_vector(h.face());
+            let after = (a - p).cross(b - p);
+            if after.dot(before) < FOLD * after.length() * before.length() || after == Vec3::ZERO {
+                return None;
+            }
+            least = least.min(quality(p, a, b));
+        }
+        Some(least)
+    }
+
+    /// Least quality of the faces at `v`.
+    pub fn quality(&self, v: VertexId) -> f32 {
+        self.topology
+            .faces_around(v)
+            .map(|f| {
+                let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
+                quality(a, b, c)
+            })
+            .fold(f32::MAX, f32::min)
+    }
+}
+
+/// Faces may not turn by more than this cosine in one edit: about 70 degrees.
+pub(super) const FOLD: f32 = 0.35;
+
+/// Faces whose normals are further apart than this from their mean (cosine of about 35 degrees) are bent.
+const BENT: f32 = 0.82;
+
+/// Shape of a triangle: 1 if equilateral, 0 if flat (area over the sum of squared sides).
+pub(super) fn quality(a: Vec3, b: Vec3, c: Vec3) -> f32 {
+    let sides = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
+    if sides > 0.0 { 2.0 * 3.0_f32.sqrt() * (b - a).cross(c - a).length() / sides } else { 0.0 }
+}
