@@ -38,6 +38,9 @@ pub enum CoatingFault {
     /// The mesh asset could not be loaded.
     #[error("its mesh could not be loaded; see the asset server's error")]
     MeshNotLoaded,
+    /// The material asset could not be loaded.
+    #[error("its material could not be loaded; see the asset server's error")]
+    MaterialNotLoaded,
     /// The settings asset could not be loaded.
     #[error("its settings could not be loaded; see the asset server's error")]
     SettingsNotLoaded,

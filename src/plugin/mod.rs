@@ -20,11 +20,17 @@ use bevy::{
     },
 };
 
+pub use crate::render::CoatingDisplay;
 pub use attach::CoatingAttach;
 pub(crate) use attach::SlotAttributes;
+#[cfg(feature = "render")]
+pub(crate) use attach::loaded;
 pub use clock::{CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, DEFAULT_AGE_PER_SECOND};
 pub use coating::{Coating, DEFAULT_TRIANGLES, MetalLook, SettingsSource};
+#[cfg(feature = "render")]
+pub(crate) use components::FilmSource;
 pub use components::{CoatedBy, CoatingPart, FilmPace, FilmRevision};
+pub(crate) use diagnostics::CoatingTimings;
 pub use error::{CoatingError, CoatingFault};
 pub use messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen};
 pub use schedule::{CoatingStep, CoatingSystems};
@@ -78,6 +84,6 @@ impl Plugin for CoatingWeatheringPlugin {
         schedule::add_step_schedule(app);
         attach::add_attachment(app);
         app.add_systems(self.schedule, drive::advance.in_set(CoatingAdvance));
-        app.add_plugins(crate::render::ShownFilmPlugin);
+        app.add_plugins(crate::render::FilmDisplayPlugin);
     }
 }

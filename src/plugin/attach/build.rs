@@ -13,6 +13,7 @@ use super::surface::surface_of;
 use crate::{
     film::build::{BuildError, BuildWarning},
     plugin::{CoatingFault, coating::FilmKey},
+    render::FilmDisplay,
     settings::CoatingSettings,
     sim::FilmState,
 };
@@ -41,7 +42,7 @@ pub(crate) struct FilmReadiness {
     pub film: FilmState,
     pub settings: Arc<CoatingSettings>,
     pub warnings: Vec<BuildWarning>,
-    pub shown: crate::render::ShownFilm,
+    pub display: FilmDisplay,
 }
 
 /// Builds, dresses and ages a film.
@@ -51,7 +52,8 @@ pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, Coatin
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
-    let shown = crate::render::ShownFilm::new(&film.mesh, &surface, &built, attributes, *scale, key.seed);
+    let mut display = FilmDisplay::new((&film.mesh, &film.forces), &surface, &built, attributes, *scale);
     film.age_to(key.start_age, settings, *gravity);
-    Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, shown }))
+    display.prepare(&film.mesh, &film.forces);
+    Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display }))
 }

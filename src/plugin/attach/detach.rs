@@ -24,14 +24,14 @@ use crate::{
         CoatedBy, Coating, CoatingPart, FilmPace, FilmRevision,
         components::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource},
     },
-    render::ShownFilm,
+    render::FilmDisplay,
     sim::{FilmClock, StainFields, StepScratch},
 };
 
 /// All that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
-    (CoatedBy, FilmPace, FilmRevision, FilmSource, FilmBuild, ShownFilm),
+    (CoatedBy, FilmPace, FilmRevision, FilmSource, FilmBuild, FilmDisplay),
 );
 
 /// Takes the film on `film` off, ready or being built. Its meshes count as changed, so that they are looked at
@@ -45,6 +45,7 @@ fn detach_now(world: &mut World, film: Entity) {
     let source = entity.get::<FilmSource>().map(|source| source.slots.clone());
     let slots = source.or(entity.get::<FilmBuild>().map(|build| build.slots.clone())).unwrap_or_default();
     entity.remove::<FilmComponents>();
+    despawn_parts(world, film);
     for slot in slots {
         let Ok(mut leaf) = world.get_entity_mut(slot) else { continue };
         // A slot may have a new film by now.
@@ -59,12 +60,11 @@ fn detach_now(world: &mut World, film: Entity) {
             }
             mesh.set_changed();
         }
-        despawn_parts(world, slot);
     }
 }
 
-fn despawn_parts(world: &mut World, leaf: Entity) {
-    let children: Vec<Entity> = world.get::<Children>(leaf).map(|children| children.to_vec()).unwrap_or_default();
+fn despawn_parts(world: &mut World, film: Entity) {
+    let children: Vec<Entity> = world.get::<Children>(film).map(|children| children.to_vec()).unwrap_or_default();
     for child in children {
         if world.get::<CoatingPart>(child).is_some() {
             world.despawn(child);

@@ -50,14 +50,16 @@ pub(super) fn finish_builds(
                 refuse(&mut commands, film, build.root, &build.slots, fault);
             }
             Ok(ready) => {
-                let FilmReadiness { film: state, settings, warnings, mut shown } = *ready;
+                let FilmReadiness { film: state, settings, warnings, mut display } = *ready;
                 let FilmState { mesh, forces, constraints, stains, clock, changes, scratch } = state;
                 let triangles = mesh.topology.face_count();
                 let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
                 (pace.rate, pace.paused) = (coating.rate, coating.paused);
-                let handles = shown.put_on(&mesh, &forces, &mut assets);
+                let handles = display.put_on(&mut assets);
                 for (&slot, handle) in build.slots.iter().zip(handles) {
                     let Ok((_, claim)) = slots.get(slot) else { continue };
+                    // A primitive of which no face was left keeps its own mesh.
+                    let handle = handle.unwrap_or_else(|| claim.original.clone());
                     let claim = FilmSlot { shown: Some(handle.clone()), ..claim.clone() };
                     commands.entity(slot).try_insert((Mesh3d(handle), claim));
                 }
@@ -66,7 +68,7 @@ pub(super) fn finish_builds(
                     .entity(film)
                     .try_remove::<FilmBuild>()
                     .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
-                    .try_insert((pace, FilmRevision::default(), source, shown));
+                    .try_insert((pace, FilmRevision::default(), source, display));
                 commands.write_message(FilmReady { entity: film, root: build.root, triangles, warnings });
             }
         }

@@ -21,6 +21,8 @@ use bevy::{
     transform::TransformSystems,
 };
 
+#[cfg(feature = "render")]
+pub(crate) use begin::loaded;
 pub(crate) use surface::SlotAttributes;
 
 /// In `PostUpdate`: finished films are put on their props, meshes to be coated are found, builds are begun.

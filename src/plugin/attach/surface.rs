@@ -46,6 +46,7 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
         let first_vertex = surface.positions.len() as u32;
         let first_triangle = surface.triangles.len();
         let mut corners = corners_of(mesh, positions.len())?;
+        corners.scale(scale);
         if mirrored {
             corners.turn();
         }
@@ -80,6 +81,19 @@ fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize,
 }
 
 impl Corners {
+    /// Turns directions as `scale` turns them. An even scale leaves them as they are, to the bit.
+    fn scale(&mut self, scale: Vec3) {
+        if scale.x == scale.y && scale.y == scale.z && scale.x > 0.0 {
+            return;
+        }
+        for normal in &mut self.normals {
+            *normal = (*normal / scale).normalize_or_zero();
+        }
+        for tangent in &mut self.tangents {
+            *tangent = (tangent.truncate() * scale).normalize_or_zero().extend(tangent.w);
+        }
+    }
+
     /// Turns the winding of every triangle.
     fn turn(&mut self) {
         fn swap<T>(values: &mut [T]) {
