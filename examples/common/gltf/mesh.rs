@@ -81,7 +81,8 @@ pub fn place(container: &Container, index: usize, transform: Mat4, node: &str) -
             }
             if colors {
                 let color = |v: usize| primitive.colors.as_ref().map(|colors| Vec4::from(colors[v]));
-                surface.colors.extend(corners.map(|v| color(v).filter(|c| c.is_finite()).unwrap_or(Vec4::ONE)));
+                let valid = |c: Vec4| c.is_finite().then(|| c.clamp(Vec4::ZERO, Vec4::ONE));
+                surface.colors.extend(corners.map(|v| color(v).and_then(valid).unwrap_or(Vec4::ONE)));
             }
         }
     }

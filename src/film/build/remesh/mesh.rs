@@ -177,6 +177,18 @@ impl<'a> WorkMesh<'a> {
         self.stray_at(self.position(a).midpoint(self.position(b)), start)
     }
 
+    /// How far the edges at a vertex are from the surface at most.
+    pub fn stray_around(&self, v: VertexId) -> f32 {
+        self.topology.ring(v).map(|h| self.stray(h)).fold(0.0, f32::max)
+    }
+
+    /// Whether the faces at a vertex are far from coplanar.
+    pub fn is_bent(&self, v: VertexId) -> bool {
+        let normal: Vec3 = self.topology.faces_around(v).map(|f| self.area_vector(f)).sum();
+        let normal = normal.normalize_or_zero();
+        self.topology.faces_around(v).map(|f| self.area_vector(f)).any(|n| n.dot(normal) < BENT * n.length())
+    }
+
     /// Distance of `p` from the surface near the triangle `start`.
     pub fn stray_at(&self, p: Vec3, start: FaceId) -> f32 {
         project(self.reference, p, start).position.distance(p)
@@ -215,6 +227,9 @@ impl<'a> WorkMesh<'a> {
 
 /// Faces may not turn by more than this cosine in one edit: about 70 degrees.
 pub(super) const FOLD: f32 = 0.35;
+
+/// Faces whose normals are further apart than this from their mean (cosine of about 35 degrees) are bent.
+const BENT: f32 = 0.82;
 
 /// Shape of a triangle: 1 if equilateral, 0 if flat (area over the sum of squared sides).
 pub(super) fn quality(a: Vec3, b: Vec3, c: Vec3) -> f32 {

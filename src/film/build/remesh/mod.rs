@@ -150,7 +150,9 @@ fn relax_rounds(mesh: &mut WorkMesh, edge: f32, jitter: f32, rounds: usize, rng:
     for round in 0..rounds {
         let jitter = if round == 0 { jitter } else { 0.0 };
         let quality = if jitter > 0.0 { 0.3 } else { FAIR };
-        relax::relax(mesh, Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, quality }, rng);
+        let settings =
+            Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, stray: STRAY_COLLAPSE * edge, quality };
+        relax::relax(mesh, settings, rng);
         flip::flip_edges(mesh);
     }
 }

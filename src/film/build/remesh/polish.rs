@@ -3,10 +3,10 @@
 use bevy_math::Vec3;
 
 use super::collapse::{CollapseLimits, try_collapse};
-use super::flip::flip_if;
+use super::flip::{flip, flip_if};
 use super::mesh::{Place, WorkMesh, quality};
 use super::project::project;
-use crate::film::{FaceId, VertexId};
+use crate::film::{FaceId, HalfEdgeId, VertexId};
 
 /// Faces below this quality are worked on: least angles under about 30 degrees.
 const THIN: f32 = 0.7;
@@ -23,7 +23,7 @@ pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
         if !mesh.topology.is_live(f) || quality_of(mesh, f) >= THIN {
             continue;
         }
-        if f.half_edges().into_iter().any(|h| flip_if(mesh, h, raises_quality)) {
+        if f.half_edges().into_iter().any(|h| flip_closely(mesh, h, limits.stray)) {
             continue;
         }
         let shortest = f.half_edges().into_iter().min_by(|&a, &b| mesh.length(a).total_cmp(&mesh.length(b)));
@@ -38,7 +38,7 @@ pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
     for f in thin_faces(mesh) {
         for v in mesh.topology.corners(f) {
             if !std::mem::replace(&mut moved[v.index()], true) {
-                improve(mesh, v, edge);
+                improve(mesh, v, edge, limits.stray);
             }
         }
     }
@@ -53,6 +53,20 @@ fn quality_of(mesh: &WorkMesh, f: FaceId) -> f32 {
     quality(a, b, c)
 }
 
+/// Flips an edge for the sake of quality, but not to cut through a bend of the surface.
+fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32) -> bool {
+    let before = mesh.stray(h);
+    if !flip_if(mesh, h, raises_quality) {
+        return false;
+    }
+    if mesh.stray(h) <= before.max(limit) {
+        return true;
+    }
+    // A second turn brings the edge back, though the other way round.
+    flip(mesh, h);
+    false
+}
+
 /// Whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
 fn raises_quality([a, b, c, d]: [Vec3; 4]) -> bool {
     let before = quality(a, b, c).min(quality(b, a, d));
@@ -61,8 +75,9 @@ fn raises_quality([a, b, c, d]: [Vec3; 4]) -> bool {
 }
 
 /// Moves a vertex by trial steps to where the worst face around it is best.
-fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32) {
+fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32, limit: f32) {
     let mut best = mesh.quality(v);
+    let mut stray = limit.max(mesh.stray_around(v));
     let reference = mesh.reference;
     for step in STEPS.map(|s| s * edge) {
         let trials: Vec<(Vec3, Place)> = match mesh.place(v) {
@@ -91,9 +106,14 @@ fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32) {
             if let Some(quality) = mesh.quality_at(v, position, [None, None])
                 && quality > best
             {
-                best = quality;
-                mesh.positions[v.index()] = position;
-                mesh.places[v.index()] = place;
+                let before = (mesh.position(v), mesh.place(v));
+                (mesh.positions[v.index()], mesh.places[v.index()]) = (position, place);
+                let strays = mesh.stray_around(v);
+                if strays <= stray {
+                    (best, stray) = (quality, stray.min(strays.max(limit)));
+                } else {
+                    (mesh.positions[v.index()], mesh.places[v.index()]) = before;
+                }
             }
         }
     }

@@ -18,6 +18,8 @@ pub(super) struct Relaxation {
     pub jitter: f32,
     /// How far a feature edge may stray from its line.
     pub deviation: f32,
+    /// How far the middle of an edge may be from the surface.
+    pub stray: f32,
     /// Moves that leave no face worse than this are accepted; others must not make the worst face worse.
     pub quality: f32,
 }
@@ -88,14 +90,21 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
     }
 }
 
-/// Moves the vertex unless a face folds or the worst face gets worse.
+/// Moves the vertex unless a face folds, the worst face gets worse, or an edge comes to cut through a bend of the
+/// surface.
 fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settings: Relaxation) -> bool {
     let fits = mesh
         .quality_at(v, position, [None, None])
         .is_some_and(|quality| quality >= settings.quality || quality >= mesh.quality(v));
-    if fits {
-        mesh.positions[v.index()] = position;
-        mesh.places[v.index()] = place;
+    if !fits {
+        return false;
+    }
+    let limit = if mesh.is_bent(v) { settings.stray.max(mesh.stray_around(v)) } else { f32::MAX };
+    let before = (mesh.position(v), mesh.place(v));
+    (mesh.positions[v.index()], mesh.places[v.index()]) = (position, place);
+    let fits = limit == f32::MAX || mesh.stray_around(v) <= limit;
+    if !fits {
+        (mesh.positions[v.index()], mesh.places[v.index()]) = before;
     }
     fits
 }

@@ -101,20 +101,26 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
 }
 
 /// The place on the surface under a point of an edge. The walk there may be caught in a fold of the surface, so it is
-/// tried from all four corners around the edge.
+/// tried from all four corners around the edge and the nearest place taken that leaves proper faces.
 fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)> {
-    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let point = mesh.position(a).lerp(mesh.position(b), cut);
-    let starts = [Some(h), Some(h.next()), Some(h.previous()), mesh.topology.twin(h).map(HalfEdgeId::previous)];
-    starts.into_iter().flatten().find_map(|corner| {
-        let start = match mesh.place(mesh.topology.origin(corner)) {
+    let twin = mesh.topology.twin(h);
+    let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)].map(|v| mesh.position(v));
+    let point = a.lerp(b, cut);
+    let corners = [Some(h), Some(h.next()), Some(h.previous()), twin.map(HalfEdgeId::previous)];
+    corners
+        .into_iter()
+        .flatten()
+        .map(|corner| match mesh.place(mesh.topology.origin(corner)) {
             Place::Free(triangle) => triangle,
             _ => mesh.corner(corner).triangle,
-        };
-        let foot = project(mesh.reference, point, start);
-        let fits = [Some(h), mesh.topology.twin(h)].into_iter().flatten().all(|h| halves_stand(mesh, h, foot.position));
-        fits.then_some((foot.position, Place::Free(foot.triangle)))
-    })
+        })
+        .map(|start| project(mesh.reference, point, start))
+        .filter(|foot| {
+            let stands = |h| halves_stand(mesh, h, foot.position);
+            stands(h) && twin.is_none_or(stands)
+        })
+        .min_by(|x, y| x.position.distance_squared(point).total_cmp(&y.position.distance_squared(point)))
+        .map(|foot| (foot.position, Place::Free(foot.triangle)))
 }
 
 /// Whether the two halves of the face of `h`, cut to the point `m` near `h`, face its way and have some area.
