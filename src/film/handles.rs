@@ -1,12 +1,10 @@
 //! Typed handles of the film mesh. Each is a `u32` index that stays valid for the life of the film:
 //! tearing appends vertices and stripping switches faces off, but nothing is ever renumbered.
 
-use serde::{Deserialize, Serialize};
-
 macro_rules! handle {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(pub u32);
 
         impl $name {
@@ -75,6 +73,6 @@ impl HalfEdgeId {
     /// The previous half-edge of the same face.
     #[inline]
     pub fn previous(self) -> Self {
-        Self(if self.0 % 3 == 0 { self.0 + 2 } else { self.0 - 1 })
+        Self(if self.0.is_multiple_of(3) { self.0 + 2 } else { self.0 - 1 })
     }
 }

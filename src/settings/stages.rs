@@ -1,101 +1,207 @@
-//! One settings struct a stage. Lengths are in mean film edges, forces in units of the initial contraction,
-//! time in age: 0 is fresh, 1 the end of the reference run.
+//! The table of all settings, one struct a stage.
+//!
+//! Lengths are in mean film edges, forces in units of the initial contraction (VC's T), angles in radians, time in
+//! age: 0 is fresh, 1 the end of the reference run (1,000 steps in the paper). Every rate is per unit age, so that
+//! the result does not depend on how many steps cover the same age. "Found by trial" marks constants that the paper
+//! leaves open.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-/// All settings of a coating, one struct a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CoatingSettings {
-    /// Adhesion of the film to the metal (VC 5.1).
-    pub adhesion: AdhesionSettings,
-    /// Bending force that lifts the film (VC 5.1, eq. 4).
-    pub bending: BendingSettings,
-    /// Contraction, binding and tearing (VC 5.2).
-    pub tearing: TearingSettings,
-    /// PBD-2 bending (VC 4).
-    pub deform: DeformSettings,
-    /// Stripping and falling pieces (VC 5.3).
-    pub stripping: StrippingSettings,
-}
+use super::{Field, Range};
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct AdhesionSettings {
-    pub mean: f32,
-    pub deviation: f32,
-    pub octaves: u32,
-    /// Noise cycles over the longest side of the film's bounding box.
-    pub frequency: f32,
-    pub decay: f32,
-}
-impl Default for AdhesionSettings {
-    fn default() -> Self {
-        Self { mean: 2.1, deviation: 0.70, octaves: 2, frequency: 5.0, decay: 1.0 }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct BendingSettings {
-    pub gain: f32,
-    pub gamma: f32,
-}
-impl Default for BendingSettings {
-    fn default() -> Self {
-        Self { gain: 1.0 / 3.0, gamma: 2.0 }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct TearingSettings {
-    pub contraction: f32,
-    pub contraction_growth: f32,
-    pub contraction_kept: f32,
-    pub binding: f32,
-    pub binding_decay: f32,
-    pub weak_probability: f32,
-    pub weak_factor: f32,
-    pub alpha: f32,
-    pub beta: f32,
-}
-impl Default for TearingSettings {
-    fn default() -> Self {
-        Self {
-            contraction: 1.0,
-            contraction_growth: 1.0,
-            contraction_kept: 0.3,
-            binding: 6.0,
-            binding_decay: 1.3,
-            weak_probability: 0.01,
-            weak_factor: 0.001,
-            alpha: 0.45,
-            beta: 0.20,
+/// Hands the table to the macro `$then`. A row is `name: type = default, ends(min, max)`, where the ends are
+/// `closed` (part of the range) or `open` (not part of it).
+macro_rules! with_stages {
+    ($then:ident) => {
+        $then! {
+            /// Adhesion of the film to the metal (VC 5.1): Perlin noise over the film, falling with age. A vertex
+            /// separates when the bending force on it exceeds its adhesion.
+            adhesion: AdhesionSettings {
+                /// Mean adhesion of a fresh film, as a force. A flat film feels a force of 1 when fresh, so
+                /// separation starts where the noise falls below that. Found by trial.
+                mean: f32 = 2.1, closed(0.0, 100.0);
+                /// Standard deviation of a fresh film's adhesion, as a force. 0: the same everywhere. Negative noise
+                /// counts as 0. Found by trial.
+                deviation: f32 = 0.70, closed(0.0, 100.0);
+                /// Octaves of noise, each with twice the frequency and half the amplitude of the one before.
+                octaves: u32 = 2, closed(1.0, 8.0);
+                /// Cycles of the first octave over the longest side of the film's bounding box: how many patches of
+                /// weak and strong adhesion lie side by side. Found by trial.
+                frequency: f32 = 5.0, closed(0.01, 1000.0);
+                /// Adhesion lost per unit age, as a force: VC's speed of deterioration w.
+                decay: f32 = 1.0, closed(0.0, 100.0);
+            }
+            /// Bending force that lifts the film off the metal (VC 5.1, eq. 4).
+            bending: BendingSettings {
+                /// Bending force per contraction force, VC's k. At 1/3 a vertex of a flat film with six neighbours
+                /// feels exactly the contraction of one face.
+                gain: f32 = 1.0 / 3.0, closed(0.0, 100.0);
+                /// Steepness of the sigmoid over the dihedral angle, per radian, VC's gamma (fig. 8): the larger, the
+                /// earlier convex places separate and the later concave ones. 0: the shape has no effect.
+                gamma: f32 = 2.0, closed(0.0, 50.0);
+            }
+            /// Contraction of the film, binding between its faces, and cracks (VC 5.2).
+            tearing: TearingSettings {
+                /// Contraction force of a face when fresh, VC's T: the unit of force, so rarely worth changing.
+                contraction: f32 = 1.0, closed(0.0, 100.0);
+                /// Contraction gained per unit age. An edge tears when the contraction of its two faces together
+                /// exceeds its binding.
+                contraction_growth: f32 = 1.0, closed(0.0, 100.0);
+                /// Share of its contraction that a face keeps when one of its edges tears. 1: cracks relieve
+                /// nothing, and the film shatters more finely. Found by trial.
+                contraction_kept: f32 = 0.3, closed(0.0, 1.0);
+                /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or
+                /// everything tears at once. Found by trial.
+                binding: f32 = 6.0, closed(0.0, 1_000_000.0);
+                /// Rate at which the bound edges of a face with a torn edge lose binding, by the factor
+                /// exp(-rate age), once for each such face. Found by trial.
+                binding_decay: f32 = 1.3, closed(0.0, 100.0);
+                /// Probability that an edge is a defect from which cracks start. 0: nothing ever tears unless the
+                /// contraction alone exceeds the binding. VC 5.2.
+                weak_probability: f32 = 0.01, closed(0.0, 1.0);
+                /// Share of the binding that a defect has. VC 5.2.
+                weak_factor: f32 = 0.001, closed(0.0, 1.0);
+                /// How straight cracks run, as a cosine: an edge at a crack's tip tears easily if its cosine to the
+                /// crack's direction is above this. Higher: fewer and straighter cracks. VC 5.2.
+                alpha: f32 = 0.45, open(-1.0, 1.0);
+                /// Share of the binding that counts for an edge straight ahead of a crack's tip. Works as a
+                /// threshold near the ratio of the contraction of two faces to the binding: above it cracks stall.
+                /// 1: tips tear no easier. VC 5.2.
+                beta: f32 = 0.20, closed(0.0, 1.0);
+            }
+            /// Bending of the separated film by position-based dynamics without inertia, PBD-2 (VC 4).
+            deform: DeformSettings {
+                /// Rate at which the target angles of separated edges narrow, in radians per unit age. Found by
+                /// trial.
+                narrowing_rate: f32 = 0.7, closed(0.0, 100.0);
+                /// How far below its initial angle a target may narrow, in radians. 0.2 to 0.5 curls flakes; from
+                /// about 1.5 the film folds over. Found by trial.
+                bend_limit: f32 = 0.35, closed(0.0, std::f32::consts::PI);
+                /// Relaxation per unit age, in plain solver sweeps, which sets how far flakes lift: bending is a
+                /// creep that never settles. 0: the film does not bend. Found by trial.
+                sweeps_per_age: f32 = 10_000.0, closed(0.0, 1_000_000.0);
+            }
+            /// Stripping of faces torn off all around (VC 5.3), and loose pieces.
+            stripping: StrippingSettings {
+                /// Pieces without any attached vertex fall off if they have at most this many faces; larger ones
+                /// stay. 0: none falls, as in the paper.
+                fall_faces: u32 = 6, closed(0.0, 1_000_000.0);
+            }
         }
+    };
+}
+pub(crate) use with_stages;
+
+/// A row's range in words, for the documentation.
+macro_rules! range_in_words {
+    (closed, $min:expr, $max:expr) => {
+        concat!(stringify!($min), " to ", stringify!($max))
+    };
+    (open, $min:expr, $max:expr) => {
+        concat!("above ", stringify!($min), " and below ", stringify!($max))
+    };
+}
+
+/// A row's range.
+macro_rules! range {
+    (closed, $min:expr, $max:expr, $type:ty) => {
+        Range { min: $min, max: $max, open: false, whole: <$type as Number>::WHOLE }
+    };
+    (open, $min:expr, $max:expr, $type:ty) => {
+        Range { min: $min, max: $max, open: true, whole: <$type as Number>::WHOLE }
+    };
+}
+
+/// Defines the structs, their defaults and the rows from the table.
+macro_rules! define_stages {
+    ($(
+        $(#[doc = $stage_doc:literal])+
+        $stage:ident: $Settings:ident {
+            $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, $ends:ident($min:expr, $max:expr);)+
+        }
+    )+) => {
+        /// All settings of a coating, one struct a stage.
+        ///
+        /// The defaults are those with which the method was tried out on plates, a curved plate, a vase and the
+        /// Stanford bunny. Reading checks names and ranges; after changing fields by hand, call
+        /// [`CoatingSettings::validate`].
+        #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+        pub struct CoatingSettings {
+            $($(#[doc = $stage_doc])+ pub $stage: $Settings,)+
+        }
+
+        $(
+            $(#[doc = $stage_doc])+
+            #[derive(Clone, Debug, PartialEq, Serialize)]
+            pub struct $Settings {
+                $(
+                    $(#[doc = $doc])+
+                    ///
+                    #[doc = concat!(
+                        "Default ", stringify!($default), "; range ", range_in_words!($ends, $min, $max), "."
+                    )]
+                    pub $field: $type,
+                )+
+            }
+
+            impl Default for $Settings {
+                fn default() -> Self {
+                    Self { $($field: $default),+ }
+                }
+            }
+        )+
+
+        pub(super) const STAGE_NAMES: &[&str] = &[$(stringify!($stage)),+];
+
+        pub(super) const STAGES: &[Stage] = &[$(Stage {
+            name: stringify!($stage),
+            type_name: stringify!($Settings),
+            field_names: &[$(stringify!($field)),+],
+            fields: &[$(Field {
+                path: concat!(stringify!($stage), ".", stringify!($field)),
+                doc: concat!($($doc),+),
+                range: range!($ends, $min, $max, $type),
+                get: |settings| settings.$stage.$field.to_f32(),
+                set: |settings, value| settings.$stage.$field = Number::from_f32(value),
+            }),+],
+        }),+];
+    };
+}
+
+/// One group of settings.
+pub(super) struct Stage {
+    pub name: &'static str,
+    /// Name of the group's struct.
+    pub type_name: &'static str,
+    pub field_names: &'static [&'static str],
+    pub fields: &'static [Field],
+}
+
+/// The types a setting can have.
+trait Number: Copy {
+    const WHOLE: bool;
+    fn to_f32(self) -> f32;
+    fn from_f32(value: f32) -> Self;
+}
+
+impl Number for f32 {
+    const WHOLE: bool = false;
+    fn to_f32(self) -> f32 {
+        self
+    }
+    fn from_f32(value: f32) -> Self {
+        value
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct DeformSettings {
-    pub narrowing_rate: f32,
-    pub bend_limit: f32,
-    pub sweeps_per_age: f32,
-}
-impl Default for DeformSettings {
-    fn default() -> Self {
-        Self { narrowing_rate: 0.7, bend_limit: 0.35, sweeps_per_age: 10_000.0 }
+impl Number for u32 {
+    const WHOLE: bool = true;
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+    fn from_f32(value: f32) -> Self {
+        value as u32
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct StrippingSettings {
-    pub fall_faces: u32,
-}
-impl Default for StrippingSettings {
-    fn default() -> Self {
-        Self { fall_faces: 6 }
-    }
-}
+with_stages!(define_stages);

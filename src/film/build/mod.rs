@@ -9,6 +9,7 @@
 
 pub mod clean;
 mod remesh;
+pub mod sample;
 
 pub use clean::{CleanSurface, clean};
 
@@ -166,7 +167,7 @@ pub const MAX_FILM_TRIANGLES: usize = 1 << 22;
 /// give the same film, to the bit.
 ///
 /// # Errors
-/// Whatever [`clean`] refuses; [`BuildError::Resolution`] for a resolution that makes no sense;
+/// Whatever [`clean()`] refuses; [`BuildError::Resolution`] for a resolution that makes no sense;
 /// [`BuildError::TooLarge`] for more than [`MAX_FILM_TRIANGLES`].
 pub fn build(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
     let target = resolution.target()?;

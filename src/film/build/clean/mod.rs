@@ -2,7 +2,7 @@
 //! game props are rarely one).
 //!
 //! ```text
-//! Surface --validate--> --weld--> --dissolve slivers--> --drop duplicates--> faces over shared vertices
+//! Surface --validate--> --weld--> --drop duplicates--> --dissolve slivers--> faces over shared vertices
 //!         --pair faces along edges--> --unify winding--> --split fans--> CleanSurface
 //! ```
 //!
@@ -121,8 +121,9 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
             flipped: false,
         });
     }
-    let degenerate = surface.triangles.len() - faces.len() + sliver::dissolve(&mut faces, &positions, welded.tolerance);
+    let points_and_lines = surface.triangles.len() - faces.len();
     let duplicates = duplicates::drop_duplicates(&mut faces);
+    let degenerate = points_and_lines + sliver::dissolve(&mut faces, &positions, welded.tolerance);
     if faces.is_empty() {
         return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });
     }

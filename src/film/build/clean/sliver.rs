@@ -16,7 +16,7 @@ use super::{Face, has_repeats};
 /// tolerance): a ten-thousandth of a degree. CAD slivers are much fatter, and are left to the remesher.
 const ALTITUDE: f64 = 1e-6;
 
-/// Dissolves slivers in place; returns how many there were.
+/// Dissolves slivers in place; returns how many there were. There must be no duplicates.
 pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64) -> usize {
     let queue: BinaryHeap<_> =
         (0..faces.len()).filter_map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f)))).collect();
@@ -89,6 +89,8 @@ struct Dissolver<'a> {
     positions: &'a [Vec3],
     tolerance: f64,
     dead: Vec<bool>,
+    /// Vertices, sorted, that each face had, or that it is a part of had, before any change.
+    origin: Vec<[u32; 3]>,
     /// Faces at each vertex, in no order that matters; may hold dead or former ones.
     at_vertex: Vec<Vec<u32>>,
     queue: Queue,
@@ -103,7 +105,8 @@ impl<'a> Dissolver<'a> {
             }
         }
         let dead = vec![false; faces.len()];
-        Self { faces, positions, tolerance, dead, at_vertex, queue }
+        let origin = faces.iter().map(|face| sorted(face.vertices)).collect();
+        Self { faces, positions, tolerance, dead, origin, at_vertex, queue }
     }
 
     fn step(&mut self, f: usize) {
@@ -144,13 +147,13 @@ impl<'a> Dissolver<'a> {
         let mut moved = std::mem::take(&mut self.at_vertex[from as usize]);
         moved.sort_unstable();
         moved.dedup();
-        for g in moved {
-            let face = &mut self.faces[g as usize];
-            if self.dead[g as usize] || !face.vertices.contains(&from) {
-                continue;
-            }
-            face.vertices = face.vertices.map(|v| if v == from { to } else { v });
+        moved.retain(|&g| !self.dead[g as usize] && self.faces[g as usize].vertices.contains(&from));
+        for &g in &moved {
+            let vertices = &mut self.faces[g as usize].vertices;
+            *vertices = vertices.map(|v| if v == from { to } else { v });
             self.at_vertex[to as usize].push(g);
+        }
+        for g in moved {
             self.settle(g as usize);
         }
     }
@@ -174,17 +177,41 @@ impl<'a> Dissolver<'a> {
         }
         self.at_vertex[apex.0 as usize].push(g as u32);
         self.faces.push(half);
+        self.origin.push(self.origin[g]);
         self.dead.push(false);
         self.settle(g);
         self.settle(new);
     }
 
-    /// After a change: drops the face if a vertex repeats, queues it if it has no area.
+    /// After a change: drops the face if a vertex repeats or another face has come to lie on it, queues it if
+    /// it has no area.
     fn settle(&mut self, g: usize) {
+        if self.dead[g] {
+            return;
+        }
         if has_repeats(self.faces[g].vertices) {
             self.dead[g] = true;
+        } else if let Some(other) = self.folded_onto(g) {
+            // The two have become a flap without volume; the faces around it meet where it was.
+            self.dead[g] = true;
+            self.dead[other] = true;
         } else if let Some(sliver) = sliver(&self.faces[g], self.positions, self.tolerance) {
             self.queue.push((sliver.rank(), Reverse(g)));
         }
     }
+
+    /// Another face on the same vertices, unless the two were the sides of one sheet from the start.
+    fn folded_onto(&self, g: usize) -> Option<usize> {
+        let vertices = sorted(self.faces[g].vertices);
+        let others = self.at_vertex[vertices[0] as usize].iter().map(|&h| h as usize);
+        others
+            .filter(|&h| h != g && !self.dead[h] && self.origin[h] != self.origin[g])
+            .filter(|&h| sorted(self.faces[h].vertices) == vertices)
+            .min()
+    }
+}
+
+fn sorted(mut vertices: [u32; 3]) -> [u32; 3] {
+    vertices.sort_unstable();
+    vertices
 }

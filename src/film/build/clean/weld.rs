@@ -55,9 +55,9 @@ pub(super) fn weld(surface: &Surface) -> Welded {
             }
         };
     }
-    for v in 0..first.len() {
-        if first[v] != NONE {
-            welded.vertex_of[v] = welded.vertex_of[first[v] as usize];
+    for (v, &first) in first.iter().enumerate() {
+        if first != NONE {
+            welded.vertex_of[v] = welded.vertex_of[first as usize];
         }
     }
     welded

@@ -1,0 +1,53 @@
+//! Loose pieces keep their place: without inertia, what a solve adds to a free piece as a whole is an
+//! artefact of the order of constraints, and would propel and spin it.
+
+use bevy_math::{Mat3, Quat, Vec3};
+
+use super::solver::above_plane;
+use crate::film::{Geometry, LoosePieces};
+
+/// Notes where the vertices of the loose pieces are before a solve.
+pub fn remember(positions: &[Vec3], loose: &LoosePieces, before: &mut Vec<Vec3>) {
+    before.clear();
+    before.extend(loose.iter().flat_map(|piece| piece.vertices).map(|v| positions[v.index()]));
+}
+
+/// Takes each loose piece's net translation and rotation since [`remember`] out again.
+pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, before: &[Vec3]) {
+    let mut left = before;
+    for piece in loose.iter() {
+        let Some((before, rest)) = left.split_at_checked(piece.vertices.len()) else { return };
+        left = rest;
+        let positions = &geometry.positions;
+        let now = || piece.vertices.iter().map(|v| positions[v.index()]);
+        let count = before.len() as f32;
+        let centre_before = before.iter().sum::<Vec3>() / count;
+        let centre_now = now().sum::<Vec3>() / count;
+        let turn = net_rotation(before.iter().map(|p| p - centre_before), now().map(|p| p - centre_now));
+        for &v in piece.vertices {
+            let i = v.index();
+            let p = centre_before + turn * (geometry.positions[i] - centre_now);
+            geometry.positions[i] = above_plane(p, geometry.rest_positions[i], geometry.rest_normals[i]);
+        }
+    }
+}
+
+/// The rotation that takes the net turn from `before` to `now` (both about their centres) out again: the
+/// angular velocity of the displacement, from angular momentum and inertia tensor of unit masses.
+fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Vec3>) -> Quat {
+    let (mut momentum, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
+    for (a, b) in before.zip(now) {
+        let middle = (a + b) * 0.5;
+        momentum += middle.cross(b - a);
+        let outer = Mat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z);
+        inertia += Mat3::from_diagonal(Vec3::splat(middle.length_squared())) - outer;
+    }
+    // Points on a line leave a turn about it open: no rotation is taken out then.
+    let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
+    if !(inertia.determinant() > 1e-9 * trace * trace * trace) {
+        return Quat::IDENTITY;
+    }
+    let half_turn = inertia.inverse() * momentum * -0.5;
+    // Cayley: exact for the half-way frame used above, and needs no trigonometry.
+    Quat::from_xyzw(half_turn.x, half_turn.y, half_turn.z, 1.0).normalize()
+}

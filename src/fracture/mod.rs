@@ -1,0 +1,28 @@
+//! Static simulation: fracture decided by balance of forces (VC 5).
+//!
+//! | stage | function | source |
+//! |---|---|---|
+//! | forces age | [`age_forces`] | VC 5.1, 5.2 |
+//! | separation | [`separate`] | VC 5.1, eq. 4 |
+//! | tearing | [`tear`] | VC 5.2 |
+//! | stripping | [`strip`] | VC 5.3 |
+//!
+//! Every stage is a function on borrowed parts and writes what it did into [`FilmChanges`].
+
+mod adhesion;
+mod forces;
+mod separation;
+mod stripping;
+mod tearing;
+
+#[cfg(test)]
+mod tests;
+
+pub use adhesion::adhesion_field;
+pub use forces::{FilmForces, age_forces};
+pub use separation::{bending_force, separate, separation_age, sigmoid};
+pub use stripping::strip;
+pub use tearing::{TearScratch, tear};
+
+#[cfg(doc)]
+use crate::film::FilmChanges;

@@ -1,0 +1,84 @@
+//! Stripping: faces torn all round are removed, and small loose pieces fall (VC 5.3 and beyond).
+
+use bevy_math::Vec3;
+
+use super::FilmForces;
+use crate::{
+    film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh, PieceScratch},
+    settings::StrippingSettings,
+};
+
+/// Removes every face whose half-edges are all torn (at the open border: all its inner edges, once all its
+/// vertices have separated), then every loose piece of up to `fall_faces` faces: nothing holds it, so real
+/// paint would have fallen. Larger loose pieces stay and are remembered, so that bending does not make them
+/// drift. Only this step's tears and separations can change any of it.
+pub fn strip(
+    mesh: &mut FilmMesh,
+    forces: &mut FilmForces,
+    settings: &StrippingSettings,
+    changes: &mut FilmChanges,
+    scratch: &mut PieceScratch,
+) {
+    if changes.torn.is_empty() && changes.separated.is_empty() {
+        return;
+    }
+    for i in 0..changes.torn.len() {
+        let edge = changes.torn[i];
+        let twin = mesh.topology.rest_twin(edge);
+        for f in [Some(edge.face()), twin.map(|t| t.face())].into_iter().flatten() {
+            strip_if_free(mesh, forces, f, changes);
+        }
+    }
+    for i in 0..changes.separated.len() {
+        // A border face can hang on by its last attached vertex, whose fan is that face alone.
+        if let Some(h) = mesh.topology.fan(changes.separated[i]).next() {
+            strip_if_free(mesh, forces, h.face(), changes);
+        }
+    }
+    let is_attached = |v: crate::film::VertexId| forces.separated_age[v.index()] == f32::INFINITY;
+    forces.loose.find(&mesh.topology, scratch, is_attached);
+    let mut fallen = false;
+    for piece in forces.loose.iter() {
+        if piece.faces.len() as u32 <= settings.fall_faces {
+            changes.debris.push(debris(mesh, piece.faces));
+            changes.removed.extend_from_slice(piece.faces);
+            mesh.topology.drop_piece(piece.faces);
+            for v in piece.vertices {
+                forces.tips[v.index()] = Vec3::ZERO;
+            }
+            fallen = true;
+        }
+    }
+    if fallen {
+        let is_attached = |v: crate::film::VertexId| forces.separated_age[v.index()] == f32::INFINITY;
+        forces.loose.find(&mesh.topology, scratch, is_attached);
+    }
+}
+
+fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &mut FilmChanges) {
+    let corners = mesh.topology.corners(f);
+    if mesh.topology.is_cut_out(f) && !corners.iter().any(|&v| forces.is_attached(v)) {
+        changes.debris.push(debris(mesh, &[f]));
+        changes.removed.push(f);
+        mesh.topology.strip(f);
+        debug_assert_eq!(mesh.topology.fate(f), FaceFate::Stripped);
+    }
+}
+
+fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
+    let (mut position, mut normal, mut area) = (Vec3::ZERO, Vec3::ZERO, 0.0);
+    for &f in faces {
+        let corners = mesh.topology.corners(f);
+        let [a, b, c] = corners.map(|v| mesh.geometry.positions[v.index()]);
+        position += (a + b + c) / 3.0;
+        normal += (b - a).cross(c - a);
+        let [a, b, c] = corners.map(|v| mesh.geometry.rest_positions[v.index()]);
+        area += (b - a).cross(c - a).length() * 0.5;
+    }
+    Debris {
+        position: position / faces.len() as f32,
+        normal: normal.normalize_or_zero(),
+        area,
+        faces: faces.len() as u32,
+    }
+}

@@ -1,0 +1,59 @@
+//! Building a film in the background: from the prop's meshes to a film aged to its start.
+
+use std::sync::Arc;
+
+use bevy::{
+    ecs::{component::Component, entity::Entity},
+    math::Vec3,
+    mesh::Mesh,
+    tasks::Task,
+};
+
+use super::surface::surface_of;
+use crate::{
+    film::build::{BuildError, BuildWarning},
+    plugin::{CoatingFault, coating::FilmKey},
+    render::FilmDisplay,
+    settings::CoatingSettings,
+    sim::FilmState,
+};
+
+/// A film that is being built. Dropping it calls the work off.
+#[derive(Component)]
+pub(crate) struct FilmBuild {
+    pub task: Task<Result<Box<FilmReadiness>, CoatingFault>>,
+    pub root: Entity,
+    pub slots: Vec<Entity>,
+    pub key: FilmKey,
+    pub scale: Vec3,
+}
+
+/// What a build needs; nothing of it is shared with the main thread.
+pub(super) struct FilmOrder {
+    pub meshes: Vec<Mesh>,
+    pub key: FilmKey,
+    pub settings: Arc<CoatingSettings>,
+    pub scale: Vec3,
+    pub gravity: Vec3,
+}
+
+/// A film that is ready to be put on its prop.
+pub(crate) struct FilmReadiness {
+    pub film: FilmState,
+    pub settings: Arc<CoatingSettings>,
+    pub warnings: Vec<BuildWarning>,
+    pub display: FilmDisplay,
+}
+
+/// Builds, dresses and ages a film.
+pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
+    let FilmOrder { meshes, key, settings, scale, gravity } = order;
+    let (surface, attributes) = surface_of(meshes, *scale)?;
+    let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
+    let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
+        .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
+    let mut display = FilmDisplay::new((&film.mesh, &film.forces), &surface, &built, attributes, *scale);
+    film.age_to(key.start_age, settings, *gravity);
+    display.prepare(&film.mesh, &film.forces);
+    Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display }))
+}

@@ -1,0 +1,118 @@
+//! The driver: turns time into steps of the films and runs the step schedule within the budget.
+
+use std::time::Instant;
+
+use bevy::{
+    ecs::{
+        change_detection::DetectChangesMut,
+        query::{QueryState, With},
+        world::World,
+    },
+    time::Time,
+    transform::components::GlobalTransform,
+};
+
+use super::{
+    CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, FilmPace,
+    components::{AwaitingFilm, FilmRefused, FilmSlot},
+};
+use crate::sim::FilmClock;
+
+/// Plans the steps of this frame for every film and takes them.
+///
+/// Steps of slower films are spread evenly between those of the fastest, so that their pace keeps its ratio
+/// wherever the budget cuts the frame short.
+pub(super) fn advance(
+    world: &mut World,
+    films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>,
+    waiting: &mut QueryState<(), With<AwaitingFilm>>,
+    refused: &mut QueryState<(), With<FilmRefused>>,
+    building: &mut QueryState<&FilmSlot>,
+) {
+    let begin = Instant::now();
+    let budget = *world.resource::<CoatingBudget>();
+    let rounds = plan(world, films);
+    let mut taken = 0;
+    while taken < rounds && taken < u64::from(budget.max_steps.max(1)) {
+        if taken > 0 && begin.elapsed() >= budget.max_time {
+            break;
+        }
+        for (mut pace, ..) in films.iter_mut(world) {
+            let pace = pace.bypass_change_detection();
+            pace.due = is_due(taken, pace.planned, rounds);
+            pace.taken += u64::from(pace.due);
+        }
+        world.run_schedule(CoatingStep);
+        taken += 1;
+    }
+    let mut status = settle(world, films);
+    status.waiting = waiting.iter(world).count() + building.iter(world).filter(|slot| slot.shown.is_none()).count();
+    status.refused = refused.iter(world).count();
+    let mut current = world.resource_mut::<CoatingStatus>();
+    current.set_if_neq(status);
+}
+
+/// Whether a film with `planned` of `rounds` steps takes one in round `round`: as evenly as whole steps can be.
+fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
+    let until = |round: u64| u128::from(round) * u128::from(planned) / u128::from(rounds);
+    until(round + 1) > until(round)
+}
+
+/// Plans each film's steps; gives the largest number of them.
+fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>) -> u64 {
+    let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
+    let gravity = world.resource::<CoatingGravity>().0;
+    let (age, target, requested) = {
+        let mut clock = world.resource_mut::<CoatingClock>();
+        let clock = clock.bypass_change_detection();
+        let age = if clock.paused { 0.0 } else { clock.age_per_second * seconds };
+        (age, clock.target_age, std::mem::take(&mut clock.requested))
+    };
+    let mut rounds = 0;
+    for (mut pace, clock, transform) in films.iter_mut(world) {
+        let pace = pace.bypass_change_detection();
+        pace.gravity = (transform.rotation().inverse() * gravity).normalize_or_zero();
+        pace.requested = pace.requested.saturating_add(requested);
+        let owed = age * pace.rate * f64::from(clock.steps_per_age);
+        if !pace.paused && owed > 0.0 {
+            pace.owed += owed;
+        }
+        // Saturates for infinite speeds.
+        let mut planned = (pace.owed as u64).saturating_add(pace.requested);
+        if let Some(target) = target {
+            let left = clock.step_at(target).saturating_sub(clock.steps);
+            if planned >= left {
+                // Nothing is owed beyond the target, so that a later one does not begin with a leap.
+                planned = left;
+                pace.owed = pace.owed.min(left as f64);
+                pace.requested = pace.requested.min(left);
+            }
+        }
+        pace.planned = planned;
+        pace.taken = 0;
+        rounds = rounds.max(planned);
+    }
+    rounds
+}
+
+/// Books the steps that were taken, requested ones first, and drops what is owed beyond them.
+fn settle(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>) -> CoatingStatus {
+    let mut status = CoatingStatus { youngest: f64::INFINITY, ..CoatingStatus::default() };
+    for (mut pace, clock, _) in films.iter_mut(world) {
+        let pace = pace.bypass_change_detection();
+        pace.due = false;
+        let requested = pace.taken.min(pace.requested);
+        pace.requested -= requested;
+        pace.owed -= (pace.taken - requested) as f64;
+        // What was planned but not taken is dropped; an infinite speed leaves nothing to carry.
+        pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
+        status.films += 1;
+        status.stepped += usize::from(pace.taken > 0);
+        status.youngest = status.youngest.min(clock.age());
+        status.oldest = status.oldest.max(clock.age());
+    }
+    if status.films == 0 {
+        status.youngest = 0.0;
+    }
+    status
+}

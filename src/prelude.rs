@@ -1,0 +1,12 @@
+//! All that most games need: `use bevy_coating::prelude::*;`
+
+pub use crate::{
+    film::build::{BuildWarning, FilmResolution},
+    plugin::{
+        CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
+        CoatingStep, CoatingSystems, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack, MetalLook,
+        PieceFallen, SettingsSource,
+    },
+    settings::CoatingSettings,
+    sim::FilmClock,
+};

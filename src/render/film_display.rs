@@ -1,0 +1,135 @@
+//! The film wearing the prop's surface: one mesh for each primitive of the prop.
+
+use bevy::{
+    asset::{Assets, Handle},
+    ecs::{
+        change_detection::DetectChangesMut,
+        component::Component,
+        system::{Query, ResMut},
+    },
+    math::Vec3,
+    mesh::Mesh,
+};
+
+use super::mesh::{PartSpace, move_part, new_mesh, write_part};
+use crate::{
+    film::{
+        FilmMesh,
+        build::{BuiltFilm, Surface},
+    },
+    fracture::FilmForces,
+    plugin::{CoatingTimings, FilmRevision, SlotAttributes},
+    shown::{ShownChange, ShownFilm},
+    sim::Stage,
+};
+
+/// What is shown of a film, and the assets that show it.
+#[derive(Component)]
+pub(crate) struct FilmDisplay {
+    pub(super) shown: ShownFilm,
+    pub(super) space: PartSpace,
+    slots: Vec<DisplaySlot>,
+    /// Revision that `shown` is up to date with.
+    seen: FilmRevision,
+    /// What `shown` has that the assets do not have yet.
+    pub(super) pending: Option<ShownChange>,
+    #[cfg(feature = "render")]
+    pub(super) parts: super::parts::PartHandles,
+}
+
+/// One primitive.
+struct DisplaySlot {
+    attributes: SlotAttributes,
+    /// Written while the film was built, until it is an asset.
+    mesh: Option<Mesh>,
+    handle: Option<Handle<Mesh>>,
+}
+
+impl FilmDisplay {
+    /// Display of a film at rest.
+    pub fn new(
+        film: (&FilmMesh, &FilmForces),
+        surface: &Surface,
+        built: &BuiltFilm,
+        slots: Vec<SlotAttributes>,
+        scale: Vec3,
+    ) -> Self {
+        let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
+        Self {
+            shown: ShownFilm::new(built, surface, film.0, film.1),
+            space: PartSpace::new(scale),
+            slots: slots.into_iter().map(empty).collect(),
+            seen: FilmRevision::default(),
+            pending: None,
+            #[cfg(feature = "render")]
+            parts: super::parts::PartHandles::default(),
+        }
+    }
+
+    /// Follows the film to where it is when it is put on its prop, and writes the meshes. Part of building it.
+    pub fn prepare(&mut self, mesh: &FilmMesh, forces: &FilmForces) {
+        self.shown.update(mesh, forces);
+        for (slot, display) in self.slots.iter_mut().enumerate() {
+            // A primitive of which nothing was left after cleaning keeps its mesh.
+            let Some(part) = self.shown.front(slot) else { continue };
+            let mut mesh = new_mesh();
+            write_part(&mut mesh, part, display.attributes, self.space);
+            display.mesh = Some(mesh);
+        }
+        self.pending = Some(ShownChange { topology: true, exposure: true });
+    }
+
+    /// Makes assets of the meshes; one handle a primitive, where the film has any of it.
+    pub fn put_on(&mut self, assets: &mut Assets<Mesh>) -> Vec<Option<Handle<Mesh>>> {
+        for slot in &mut self.slots {
+            slot.handle = slot.mesh.take().map(|mesh| assets.add(mesh));
+        }
+        self.slots.iter().map(|slot| slot.handle.clone()).collect()
+    }
+}
+
+/// Brings what is shown up to date with the films that changed, in parallel. Touches no asset.
+pub(super) fn follow_films(
+    mut films: Query<(&FilmMesh, &FilmForces, &FilmRevision, &mut FilmDisplay)>,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::MeshGeneration, || {
+        films.par_iter_mut().for_each(|(mesh, forces, revision, mut display)| {
+            if display.seen == *revision {
+                return;
+            }
+            let display = display.bypass_change_detection();
+            display.seen = *revision;
+            let change = display.shown.update(mesh, forces);
+            let pending = display.pending.get_or_insert_default();
+            pending.topology |= change.topology;
+            pending.exposure |= change.exposure;
+        });
+    });
+}
+
+/// Writes the meshes of the films that changed.
+pub(super) fn write_fronts(
+    mut films: Query<&mut FilmDisplay>,
+    mut assets: ResMut<Assets<Mesh>>,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::MeshGeneration, || {
+        for mut display in &mut films {
+            let display = display.bypass_change_detection();
+            let Some(change) = display.pending else { continue };
+            for (slot, front) in display.slots.iter().enumerate() {
+                let Some(part) = display.shown.front(slot) else { continue };
+                let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
+                if change.topology {
+                    write_part(&mut mesh, part, front.attributes, display.space);
+                } else {
+                    move_part(&mut mesh, part, display.space);
+                }
+            }
+            if cfg!(not(feature = "render")) {
+                display.pending = None;
+            }
+        }
+    });
+}

@@ -1,0 +1,275 @@
+use super::*;
+
+fn refusal(text: &str) -> SettingsError {
+    CoatingSettings::from_ron(text, "barrel.coating.ron").expect_err(text)
+}
+
+/// A value that is in the setting's range, but not its default.
+fn another_value(field: &Field) -> f32 {
+    let default = field.get(&CoatingSettings::default());
+    if field.range.whole { default + 1.0 } else { 0.5 * default + 0.011 }
+}
+
+#[test]
+fn defaults_are_those_of_the_method() {
+    let expected = "(adhesion:(mean:2.1,deviation:0.7,octaves:2,frequency:5.0,decay:1.0),\
+        bending:(gain:0.33333334,gamma:2.0),\
+        tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,binding:6.0,binding_decay:1.3,\
+        weak_probability:0.01,weak_factor:0.001,alpha:0.45,beta:0.2),\
+        deform:(narrowing_rate:0.7,bend_limit:0.35,sweeps_per_age:10000.0),\
+        stripping:(fall_faces:6))";
+    assert_eq!(ron::to_string(&CoatingSettings::default()).unwrap(), expected);
+}
+
+#[test]
+fn every_default_is_valid() {
+    assert_eq!(CoatingSettings::default().validate(), Ok(()));
+}
+
+#[test]
+fn every_row_of_the_table_reaches_its_own_field() {
+    let default = serde_json::to_value(CoatingSettings::default()).unwrap();
+    for field in CoatingSettings::fields() {
+        let value = another_value(field);
+        let mut settings = CoatingSettings::default();
+        settings.set(field.path, &value.to_string()).unwrap();
+        assert_eq!(field.get(&settings), value, "{}", field.path);
+
+        // Serde sees that change at that path, and nowhere else.
+        let pointer = format!("/{}", field.path.replace('.', "/"));
+        let mut seen = serde_json::to_value(&settings).unwrap();
+        let changed = seen.pointer_mut(&pointer).unwrap_or_else(|| panic!("no {pointer}"));
+        assert_eq!(changed.as_f64().unwrap() as f32, value, "{}", field.path);
+        *changed = default.pointer(&pointer).unwrap().clone();
+        assert_eq!(seen, default, "{}", field.path);
+    }
+}
+
+#[test]
+fn the_table_misses_no_field() {
+    let serde_json::Value::Object(stages) = serde_json::to_value(CoatingSettings::default()).unwrap() else {
+        panic!("settings are a struct")
+    };
+    let mut paths: Vec<String> = stages
+        .iter()
+        .flat_map(|(stage, fields)| fields.as_object().unwrap().keys().map(move |field| format!("{stage}.{field}")))
+        .collect();
+    let mut table: Vec<_> = CoatingSettings::fields().map(|field| field.path).collect();
+    paths.sort();
+    table.sort_unstable();
+    assert_eq!(table, paths);
+}
+
+#[test]
+fn every_field_refuses_what_is_out_of_its_range() {
+    for field in CoatingSettings::fields() {
+        for (value, text) in [
+            (f32::NAN, "NaN"),
+            (f32::INFINITY, "inf"),
+            (f32::NEG_INFINITY, "-inf"),
+            (field.range.min - 1.0, ""),
+            (field.range.max * 1.001, ""),
+        ] {
+            let text = if text.is_empty() { value.to_string() } else { text.to_string() };
+            let (stage, name) = field.path.split_once('.').unwrap();
+            let ron = format!(
+                "({stage}: ({name}: {}))",
+                if value.fract() == 0.0 { format!("{value:.1}") } else { text.clone() }
+            );
+            let mut set = CoatingSettings::default();
+            for error in [set.set(field.path, &text).unwrap_err(), refusal(&ron)] {
+                let SettingsErrorKind::OutOfRange { field: path, range, .. } = &error.kind else {
+                    panic!("{ron}: {error:?}")
+                };
+                assert_eq!((*path, *range), (field.path, field.range));
+                let message = error.to_string();
+                assert!(message.contains(&format!("setting `{}` is {text}", field.path)), "{message}");
+                assert!(message.contains(&format!("range is {}", field.range)), "{message}");
+            }
+            assert_eq!(set, CoatingSettings::default(), "a refused value changes nothing");
+        }
+    }
+}
+
+#[test]
+fn ranges_include_their_ends_unless_open() {
+    for field in CoatingSettings::fields() {
+        for end in [field.range.min, field.range.max] {
+            assert_eq!(field.range.contains(end), !field.range.open, "{} {end}", field.path);
+            assert!(field.doc.len() > 20, "{} has no documentation", field.path);
+        }
+    }
+}
+
+#[test]
+fn validate_finds_a_field_that_was_set_by_hand() {
+    let mut settings = CoatingSettings::default();
+    settings.tearing.alpha = f32::NAN;
+    assert_eq!(
+        settings.validate().unwrap_err().to_string(),
+        "setting `tearing.alpha` is NaN, but its range is -1 to 1 (both excluded)"
+    );
+    settings.tearing.alpha = 0.5;
+    settings.adhesion.octaves = u32::MAX;
+    let message = settings.validate().unwrap_err().to_string();
+    assert!(message.ends_with("but its range is 1 to 8 (whole numbers)"), "{message}");
+}
+
+#[test]
+fn a_file_may_leave_everything_out() {
+    assert_eq!(CoatingSettings::from_ron("()", "x"), Ok(CoatingSettings::default()));
+    let settings =
+        CoatingSettings::from_ron("// thin\nCoatingSettings(tearing: (beta: 0.3,), bending: ())", "x").unwrap();
+    let mut expected = CoatingSettings::default();
+    expected.tearing.beta = 0.3;
+    assert_eq!(settings, expected);
+}
+
+#[test]
+fn refusals_of_a_file_name_file_place_setting_and_range() {
+    for (text, message) in [
+        (
+            "(\n  tearing: (\n    alpha: 1.5,\n  ),\n)",
+            "barrel.coating.ron:3:12: setting `tearing.alpha` is 1.5, but its range is -1 to 1 (both excluded)",
+        ),
+        (
+            "(adhesion: (octaves: -1))",
+            "barrel.coating.ron:1:22: setting `adhesion.octaves` is -1, but its range is 1 to 8 (whole numbers)",
+        ),
+        (
+            "(adhesion: (octaves: 2.5))",
+            "barrel.coating.ron:1:22: setting `adhesion.octaves` is 2.5, but its range is 1 to 8 (whole numbers)",
+        ),
+        (
+            "(tearing: (beta: \"low\"))",
+            "barrel.coating.ron:1:17: setting `tearing.beta` must be a number in its range of 0 to 1: Expected float",
+        ),
+        (
+            "(\n  bending: (gama: 2.0),\n)",
+            "barrel.coating.ron:2:13: there is no setting `bending.gama`; known here: bending.gain, bending.gamma",
+        ),
+        (
+            "(rust: (rate: 2.0))",
+            "barrel.coating.ron:1:2: there is no setting `rust`; known here: adhesion, bending, tearing, deform, stripping",
+        ),
+        ("(bending: (gain: 1.0, gain: 1.0))", "barrel.coating.ron:1:23: setting `bending.gain` is given twice"),
+        ("(bending: (), bending: ())", "barrel.coating.ron:1:15: setting `bending` is given twice"),
+        ("(bending: (gain: 1.0)", "barrel.coating.ron:1:21: Expected comma"),
+        ("[1]", "barrel.coating.ron:1:1: Expected opening `(` for struct `CoatingSettings`"),
+        ("() ()", "barrel.coating.ron:1:3: Non-whitespace trailing characters"),
+    ] {
+        assert_eq!(refusal(text).to_string(), message, "{text}");
+    }
+    for broken in ["", "(", "(tearing", "(tearing:", "(tearing: (beta:", "\u{0}", "(tearing: 3)", "((((((((", "{}"] {
+        assert_eq!(refusal(broken).place.unwrap().file, "barrel.coating.ron", "{broken}");
+    }
+}
+
+#[test]
+fn set_refuses_what_it_does_not_know() {
+    let mut settings = CoatingSettings::default();
+    let unknown = settings.set("tearing.gamma", "1").unwrap_err();
+    let SettingsErrorKind::UnknownField { path, known } = &unknown.kind else { panic!("{unknown:?}") };
+    assert_eq!(path, "tearing.gamma");
+    assert_eq!(known.len(), CoatingSettings::fields().count());
+    assert!(unknown.to_string().contains("bending.gamma, tearing.contraction"), "{unknown}");
+
+    let malformed = settings.set("tearing.beta", "0,3").unwrap_err().to_string();
+    assert_eq!(malformed, "setting `tearing.beta` must be a number in its range of 0 to 1: found `0,3`");
+    assert_eq!(settings, CoatingSettings::default());
+    settings.set("stripping.fall_faces", " 0 ").unwrap();
+    assert_eq!(settings.stripping.fall_faces, 0);
+}
+
+#[test]
+fn settings_survive_every_kind_of_format() {
+    let mut settings = CoatingSettings::default();
+    for field in CoatingSettings::fields() {
+        field.set(&mut settings, another_value(field)).unwrap();
+    }
+    let text = ron::ser::to_string_pretty(&settings, Default::default()).unwrap();
+    assert_eq!(CoatingSettings::from_ron(&text, "x"), Ok(settings.clone()));
+    let text = serde_json::to_string(&settings).unwrap();
+    assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
+    // As formats without names do.
+    let rows: Vec<Vec<f32>> =
+        stages::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
+    let text = serde_json::to_string(&rows).unwrap();
+    assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
+    assert!(serde_json::from_str::<CoatingSettings>("[[1.0]]").is_err(), "too short");
+}
+
+#[test]
+fn every_preset_is_valid_and_round_trips() {
+    for (name, _) in PRESETS {
+        let settings = CoatingSettings::preset(name).unwrap();
+        settings.validate().unwrap();
+        let text = ron::to_string(&settings).unwrap();
+        assert_eq!(CoatingSettings::from_ron(&text, name).unwrap(), settings);
+    }
+}
+
+#[test]
+fn presets_are_those_of_the_method() {
+    assert_eq!(CoatingSettings::preset("default").unwrap(), CoatingSettings::default());
+    for (name, changes) in [
+        (
+            "few_cracks",
+            &[
+                ("tearing.beta", "0.9"),
+                ("tearing.binding_decay", "5"),
+                ("tearing.weak_probability", "0.004"),
+                ("tearing.contraction_kept", "0.7"),
+            ][..],
+        ),
+        (
+            "gentle",
+            &[
+                ("adhesion.decay", "0.6"),
+                ("tearing.contraction_growth", "0.5"),
+                ("tearing.binding_decay", "1"),
+                ("deform.bend_limit", "0.25"),
+            ],
+        ),
+        (
+            "heavy",
+            &[
+                ("adhesion.decay", "1.3"),
+                ("tearing.contraction_growth", "1.5"),
+                ("tearing.binding_decay", "1.6"),
+                ("adhesion.mean", "1.9"),
+                ("deform.bend_limit", "0.4"),
+            ],
+        ),
+    ] {
+        let mut expected = CoatingSettings::default();
+        for (path, value) in changes {
+            expected.set(path, value).unwrap();
+        }
+        assert_eq!(CoatingSettings::preset(name).unwrap(), expected, "{name}");
+    }
+    let unknown = CoatingSettings::preset("rusty").unwrap_err().to_string();
+    assert_eq!(unknown, "there is no preset `rusty`; there are default, few_cracks, gentle, heavy");
+}
+
+#[test]
+fn every_preset_file_is_built_in() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/presets");
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    files.sort();
+    assert_eq!(files, PRESETS.map(|(name, _)| format!("{name}.coating.ron")));
+}
+
+#[test]
+fn the_readme_lists_every_setting() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
+    for (field, row) in CoatingSettings::fields().zip(rows) {
+        let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);
+        assert!(row.starts_with(&expected), "{row}\nshould start with\n{expected}");
+    }
+    for (name, _) in PRESETS {
+        assert!(readme.contains(&format!("| `{name}` | ")), "{name}");
+    }
+}

@@ -1,0 +1,38 @@
+//! Vertex arrays of a shown part.
+
+/// Vertices and triangles of one shown part, in the film's space. Attributes that the prop does not have are empty,
+/// others hold one entry a vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShownPart {
+    /// Positions.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit normals.
+    pub normals: Vec<[f32; 3]>,
+    /// First texture coordinates.
+    pub uvs: Vec<[f32; 2]>,
+    /// Second texture coordinates.
+    pub uvs_1: Vec<[f32; 2]>,
+    /// Unit tangents, handedness in the fourth component.
+    pub tangents: Vec<[f32; 4]>,
+    /// Linear colours.
+    pub colors: Vec<[f32; 4]>,
+    /// Three vertices a triangle, wound as the prop's own triangles are.
+    pub indices: Vec<u32>,
+}
+
+impl ShownPart {
+    /// Whether there is nothing to show.
+    pub fn is_empty(&self) -> bool {
+        self.indices.is_empty()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.positions.clear();
+        self.normals.clear();
+        self.uvs.clear();
+        self.uvs_1.clear();
+        self.tangents.clear();
+        self.colors.clear();
+        self.indices.clear();
+    }
+}

@@ -1,0 +1,55 @@
+//! A digest of a film's state, to compare runs bit by bit.
+
+use bevy_math::Vec3;
+
+use super::FilmState;
+use crate::film::FaceFate;
+
+/// Name of the digest's algorithm and version of its fields.
+pub const DIGEST_ALGORITHM: &str = "blake3-256/film-1";
+
+impl FilmState {
+    /// Feeds the state into `hasher`, all numbers little-endian: steps (u64); vertex, face and half-edge
+    /// counts (u32 each); for each vertex original (u32), rest position, position (3 f32 each), adhesion,
+    /// separation age (f32; infinite while attached), tip direction (3 f32); for each face its three origins
+    /// (u32), fate (u8: 0 live, 1 stripped, 2 fallen), contraction (f32); for each half-edge torn (u8),
+    /// binding (f32). Stains follow in a later version of the algorithm.
+    pub fn digest_into(&self, hasher: &mut blake3::Hasher) {
+        let (topology, geometry) = (&self.mesh.topology, &self.mesh.geometry);
+        let mut bytes = Vec::with_capacity(64 * topology.vertex_count() + 48 * topology.face_count());
+        let vector = |bytes: &mut Vec<u8>, v: Vec3| v.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes.extend(self.clock.steps.to_le_bytes());
+        for count in [topology.vertex_count(), topology.face_count(), topology.half_edge_count()] {
+            bytes.extend((count as u32).to_le_bytes());
+        }
+        for v in topology.all_vertices() {
+            bytes.extend(topology.original(v).0.to_le_bytes());
+            vector(&mut bytes, geometry.rest_positions[v.index()]);
+            vector(&mut bytes, geometry.positions[v.index()]);
+            bytes.extend(self.forces.adhesion[v.index()].to_le_bytes());
+            bytes.extend(self.forces.separated_age[v.index()].to_le_bytes());
+            vector(&mut bytes, self.forces.tips[v.index()]);
+        }
+        for f in topology.all_faces() {
+            topology.corners(f).iter().for_each(|v| bytes.extend(v.0.to_le_bytes()));
+            bytes.push(match topology.fate(f) {
+                FaceFate::Live => 0,
+                FaceFate::Stripped => 1,
+                FaceFate::Fallen => 2,
+            });
+            bytes.extend(self.forces.contraction[f.index()].to_le_bytes());
+        }
+        for h in topology.all_half_edges() {
+            bytes.push(u8::from(topology.is_torn(h)));
+            bytes.extend(self.forces.binding[h.index()].to_le_bytes());
+        }
+        hasher.update(&bytes);
+    }
+
+    /// The digest of this film alone, in hexadecimal; see [`FilmState::digest_into`] for what it covers.
+    pub fn digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        self.digest_into(&mut hasher);
+        hasher.finalize().to_hex().to_string()
+    }
+}

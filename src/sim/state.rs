@@ -1,0 +1,219 @@
+//! The state of one film and its step.
+
+use bevy_math::Vec3;
+
+use super::{FilmClock, Stage, StageTimes};
+use crate::{
+    deform::{self, BendScratch, FilmConstraints},
+    film::{FilmChanges, FilmMesh, InvariantError, PieceScratch, VertexId, build::BuiltFilm},
+    fracture::{self, FilmForces, TearScratch},
+    settings::CoatingSettings,
+};
+
+/// How far below its plane a vertex may lie, in mean edges: rounding.
+const PLANE_TOLERANCE: f32 = 1e-5;
+
+/// Stain fields of a film. The stages that fill them (rust, dust, moisture) follow bending; the film carries
+/// the component so that their place in the step is fixed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StainFields {}
+
+/// Buffers of a step, kept between steps. Holds nothing that matters from one step to the next.
+#[derive(Clone, Debug, Default)]
+pub struct StepScratch {
+    /// Of tearing.
+    pub tear: TearScratch,
+    /// Of stripping.
+    pub pieces: PieceScratch,
+    /// Of bending.
+    pub bend: BendScratch,
+}
+
+/// Everything one film needs to step.
+#[derive(Clone, Debug, Default)]
+pub struct FilmState {
+    /// The film mesh.
+    pub mesh: FilmMesh,
+    /// Forces and fracture state.
+    pub forces: FilmForces,
+    /// Constraints of bending.
+    pub constraints: FilmConstraints,
+    /// Stain fields.
+    pub stains: StainFields,
+    /// Step counter.
+    pub clock: FilmClock,
+    /// What the last step changed.
+    pub changes: FilmChanges,
+    /// Buffers.
+    pub scratch: StepScratch,
+}
+
+/// The stages of one step, each on the parts that it needs: the only place where their order is written down
+/// outside the plugin's schedule.
+pub mod stage {
+    use super::{
+        BendScratch, CoatingSettings, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh, PieceScratch,
+        TearScratch, Vec3, deform, fracture,
+    };
+
+    /// Begins a step: forgets the last one's changes and counts.
+    pub fn begin(clock: &mut FilmClock, changes: &mut FilmChanges) {
+        changes.clear();
+        clock.steps += 1;
+    }
+
+    /// Forces age (VC 5.1, 5.2).
+    pub fn forces(mesh: &FilmMesh, forces: &mut FilmForces, clock: &FilmClock, settings: &CoatingSettings) {
+        fracture::age_forces(mesh, forces, settings, clock.dt());
+    }
+
+    /// Separation (VC 5.1).
+    pub fn separate(
+        mesh: &FilmMesh,
+        forces: &mut FilmForces,
+        clock: &FilmClock,
+        changes: &mut FilmChanges,
+        settings: &CoatingSettings,
+    ) {
+        fracture::separate(mesh, forces, settings, clock.age() as f32, changes);
+    }
+
+    /// Tearing (VC 5.2). `gravity` is a unit vector in the film's space.
+    pub fn tear(
+        mesh: &mut FilmMesh,
+        forces: &mut FilmForces,
+        changes: &mut FilmChanges,
+        settings: &CoatingSettings,
+        gravity: Vec3,
+        scratch: &mut TearScratch,
+    ) {
+        fracture::tear(mesh, forces, &settings.tearing, gravity, changes, scratch);
+    }
+
+    /// Stripping (VC 5.3).
+    pub fn strip(
+        mesh: &mut FilmMesh,
+        forces: &mut FilmForces,
+        changes: &mut FilmChanges,
+        settings: &CoatingSettings,
+        scratch: &mut PieceScratch,
+    ) {
+        fracture::strip(mesh, forces, &settings.stripping, changes, scratch);
+    }
+
+    /// Constraints follow fracture (VC 5, fig. 7).
+    pub fn link(mesh: &FilmMesh, constraints: &mut FilmConstraints, changes: &FilmChanges) {
+        deform::follow_fracture(mesh, constraints, changes);
+    }
+
+    /// PBD-2 (VC 4).
+    pub fn bend(
+        mesh: &mut FilmMesh,
+        constraints: &mut FilmConstraints,
+        forces: &FilmForces,
+        clock: &FilmClock,
+        changes: &mut FilmChanges,
+        settings: &CoatingSettings,
+        scratch: &mut BendScratch,
+    ) {
+        let sweeps = deform::sweeps_of_step(settings.deform.sweeps_per_age, clock.steps, clock.steps_per_age);
+        let pace = (clock.dt(), sweeps);
+        deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, scratch);
+    }
+}
+
+impl FilmState {
+    /// A fresh film of `built`. `None` if it is no oriented manifold, which [`crate::film::build::build`] never
+    /// gives.
+    pub fn new(built: &BuiltFilm, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Option<Self> {
+        let mesh = FilmMesh::new(built.positions.clone(), &built.triangles).ok()?;
+        Some(Self::from_mesh(mesh, settings, seed, steps_per_age))
+    }
+
+    /// A fresh film on `mesh`.
+    pub fn from_mesh(mesh: FilmMesh, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Self {
+        Self {
+            forces: FilmForces::new(&mesh, settings, seed),
+            constraints: FilmConstraints::new(&mesh),
+            clock: FilmClock::new(steps_per_age),
+            mesh,
+            ..Self::default()
+        }
+    }
+
+    /// Takes one step. `gravity` is a unit vector in the film's space.
+    pub fn step(&mut self, settings: &CoatingSettings, gravity: Vec3) {
+        self.step_timed(settings, gravity, &mut StageTimes::default());
+    }
+
+    /// Takes one step and adds the time spent in each stage to `times`.
+    pub fn step_timed(&mut self, settings: &CoatingSettings, gravity: Vec3, times: &mut StageTimes) {
+        let Self { mesh, forces, constraints, stains: _, clock, changes, scratch } = self;
+        stage::begin(clock, changes);
+        times.measure(Stage::Fracture, || {
+            stage::forces(mesh, forces, clock, settings);
+            stage::separate(mesh, forces, clock, changes, settings);
+            stage::tear(mesh, forces, changes, settings, gravity, &mut scratch.tear);
+            stage::strip(mesh, forces, changes, settings, &mut scratch.pieces);
+            stage::link(mesh, constraints, changes);
+        });
+        times.measure(Stage::Deformation, || {
+            stage::bend(mesh, constraints, forces, clock, changes, settings, &mut scratch.bend);
+        });
+    }
+
+    /// Steps until the film is `age` old; does nothing if it is already.
+    pub fn age_to(&mut self, age: f64, settings: &CoatingSettings, gravity: Vec3) {
+        while self.clock.steps < self.clock.step_at(age) {
+            self.step(settings, gravity);
+        }
+    }
+
+    /// Checks every invariant of the film, its forces and its constraints (the list at the end of the method:
+    /// one fan a vertex, twins share their ends, torn implies separated, attached vertices have not moved,
+    /// none below its plane, stripped faces are cut out, tips have one torn edge). For tests and debugging.
+    ///
+    /// # Errors
+    /// The first [`InvariantError`] found.
+    pub fn validate(&self) -> Result<(), InvariantError> {
+        self.mesh.validate()?;
+        let (topology, geometry, forces) = (&self.mesh.topology, &self.mesh.geometry, &self.forces);
+        let vertices = topology.vertex_count();
+        if [forces.adhesion.len(), forces.separated_age.len(), forces.tips.len()] != [vertices; 3] {
+            return Err(InvariantError::ArrayLength("forces"));
+        }
+        for v in topology.all_vertices() {
+            let moved = geometry.positions[v.index()] != geometry.rest_positions[v.index()];
+            if forces.is_attached(v) && moved {
+                return Err(InvariantError::AttachedMoved(v));
+            }
+            if geometry.height(v) < -PLANE_TOLERANCE * geometry.mean_edge {
+                return Err(InvariantError::BelowPlane(v));
+            }
+            if forces.tip(v).is_some() && !self.is_tip(v) {
+                return Err(InvariantError::Tip(v));
+            }
+        }
+        for h in topology.all_half_edges().filter(|&h| topology.is_torn(h)) {
+            if forces.is_attached(topology.origin(h)) || forces.is_attached(topology.target(h)) {
+                return Err(InvariantError::TornAttached(h));
+            }
+        }
+        self.constraints.validate(&self.mesh, |v| forces.is_attached(v))
+    }
+
+    /// Whether `v` lies inside and has exactly one torn edge: its open fan begins and ends at that edge.
+    fn is_tip(&self, v: VertexId) -> bool {
+        let topology = &self.mesh.topology;
+        let torn = topology
+            .fan(v)
+            .map(|h| u32::from(topology.is_torn(h)) + u32::from(topology.is_torn(h.previous())))
+            .sum::<u32>();
+        let ends_meet = topology
+            .fan(v)
+            .last()
+            .zip(topology.fan(v).next())
+            .is_some_and(|(last, first)| topology.rest_twin(first) == Some(last.previous()));
+        !topology.is_border(v) && torn == 2 && ends_meet
+    }
+}
