@@ -2,7 +2,7 @@
 
 use crate::cli::Options;
 use crate::scene::ROAD;
-use crate::weathering::{Coat, Loading};
+use crate::weathering::{Loading, Painted};
 use bevy::gltf::GltfAssetLabel;
 use bevy::prelude::*;
 use bevy::world_serialization::WorldInstanceReady;
@@ -21,7 +21,7 @@ pub struct PropsPlugin;
 
 impl Plugin for PropsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Loading>().add_systems(Startup, spawn);
+        app.add_systems(Startup, spawn).add_systems(Update, give_up);
     }
 }
 
@@ -51,7 +51,7 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
         prop("props/prop_barrier.glb", tilted(place(-3.6, ROAD, -14.5, 75.0, 8.0), 0.0, 0.0), &[("construction-barrier", 1200)]),
         prop("props/prop_dumpster.glb", place(2.35, 0.02, -9.0, 78.0, 4.3), &[("dumpster", 3000)]),
         prop("props/prop_sign_highway.glb", tilted(place(-5.8, 0.0, -29.0, -90.0, 11.0), 0.0, 1.5), &[]),
-        prop("props/prop_lantern.glb", tilted(place(-11.2, 0.0, -6.0, 10.0, 3.6), 2.0, -5.0), &[]),
+        prop("props/prop_lantern.glb", tilted(place(2.0, 0.0, -4.3, 10.0, 1.0), 78.0, 20.0), &[]),
         prop("props/prop_watertower.glb", tilted(place(-34.0, 0.0, -62.0, 20.0, 26.0), 0.0, 3.0), &[]),
     ];
     for (index, prop) in props.into_iter().enumerate() {
@@ -83,10 +83,20 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
                     if let Some((at, (_, triangles))) =
                         prop.painted.iter().enumerate().find(|(_, (painted, _))| *painted == name.as_str())
                     {
-                        commands.entity(entity).insert(Coat { triangles: *triangles, seed: seed.wrapping_add(at as u64) });
+                        commands.entity(entity).insert(Painted { triangles: *triangles, seed: seed.wrapping_add(at as u64) });
                     }
                 }
             },
         );
+    }
+}
+
+/// A model that cannot be loaded would be waited for in vain.
+fn give_up(assets: Res<AssetServer>, props: Query<&WorldAssetRoot>, mut exit: MessageWriter<AppExit>) {
+    for prop in &props {
+        if assets.load_state(&prop.0).is_failed() {
+            error!("A model of the scene is missing; run the example from a whole copy of the repository.");
+            exit.write(AppExit::error());
+        }
     }
 }

@@ -22,6 +22,8 @@ pub struct Wall {
     pub uv_scale: f32,
     pub tint: Vec3,
     pub noise: Fbm<Perlin>,
+    /// Whether its back can be seen.
+    pub two_sided: bool,
     /// Where in the noise this wall lies.
     pub offset: f32,
     /// For a floor: points of its edge where the wall it rests on still stands. Without walls nothing carries
@@ -145,8 +147,10 @@ impl Wall {
         };
         let front: Vec<Corner> = outline.iter().map(|p| corner(*p, half, 1.0)).collect();
         faces.polygon(&front);
-        let back: Vec<Corner> = outline.iter().rev().map(|p| corner(*p, -half, 0.8)).collect();
-        faces.polygon(&back);
+        if self.two_sided {
+            let back: Vec<Corner> = outline.iter().rev().map(|p| corner(*p, -half, 0.8)).collect();
+            faces.polygon(&back);
+        }
         for (from, to) in cuts {
             let side = |p: Vec2, z: f32| {
                 let along = p.x + p.y;
