@@ -14,11 +14,7 @@ use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 
 pub fn add(app: &mut App, options: &Options) {
     let (width, height) = options.size;
-    let window = Window {
-        title: "City sign".into(),
-        resolution: WindowResolution::new(width, height),
-        ..default()
-    };
+    let window = Window { title: "City sign".into(), resolution: WindowResolution::new(width, height), ..default() };
     let window = WindowPlugin { primary_window: Some(window), ..default() };
     app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()))
         .add_plugins(EguiPlugin::default())
