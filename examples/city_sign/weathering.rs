@@ -10,6 +10,8 @@ use bevy_coating::prelude::*;
 pub struct Painted {
     pub triangles: u32,
     pub seed: u64,
+    /// Looked after better than the rest of the street.
+    pub cared_for: bool,
 }
 
 /// Props asked for, and those in the scene already.
@@ -40,7 +42,12 @@ fn coat(
     fresh: Query<(Entity, &Painted), (Without<Coating>, With<Mesh3d>)>,
 ) {
     for (entity, painted) in &fresh {
-        let coating = Coating::new(options.preset.1.clone()).with_seed(painted.seed).with_triangles(painted.triangles);
+        let mut settings = options.preset.1.clone();
+        if painted.cared_for {
+            settings.adhesion.mean += 0.55;
+            settings.deform.bend_limit *= 0.6;
+        }
+        let coating = Coating::new(settings).with_seed(painted.seed).with_triangles(painted.triangles);
         commands.entity(entity).insert(coating);
     }
 }
