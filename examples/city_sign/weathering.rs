@@ -10,8 +10,16 @@ use bevy_coating::prelude::*;
 pub struct Painted {
     pub triangles: u32,
     pub seed: u64,
-    /// Looked after better than the rest of the street.
-    pub cared_for: bool,
+    pub wear: Wear,
+}
+
+/// How a part has fared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wear {
+    /// As the command line has it.
+    Street,
+    /// A better primer, or a sheltered place: less has come off.
+    Sheltered,
 }
 
 /// Props asked for, and those in the scene already.
@@ -20,6 +28,14 @@ pub struct Loading {
     pub props: usize,
     pub loaded: usize,
 }
+
+/// Darker than the default: the low sun warms it.
+const BARE_METAL: MetalLook = MetalLook {
+    steel: Color::srgb(0.24, 0.21, 0.19),
+    rust: Color::srgb(0.36, 0.19, 0.095),
+    metallic: 0.55,
+    roughness: 0.7,
+};
 
 /// Fresh paint for everything.
 #[derive(Event)]
@@ -43,11 +59,12 @@ fn coat(
 ) {
     for (entity, painted) in &fresh {
         let mut settings = options.preset.1.clone();
-        if painted.cared_for {
-            settings.adhesion.mean += 0.55;
+        if painted.wear == Wear::Sheltered {
+            settings.adhesion.mean += 0.5;
             settings.deform.bend_limit *= 0.6;
         }
-        let coating = Coating::new(settings).with_seed(painted.seed).with_triangles(painted.triangles);
+        let coating =
+            Coating::new(settings).with_seed(painted.seed).with_triangles(painted.triangles).with_metal(BARE_METAL);
         commands.entity(entity).insert(coating);
     }
 }
