@@ -19,7 +19,10 @@ pub fn display_exists() -> bool {
     cfg!(not(target_os = "linux")) || std::env::var_os("DISPLAY").is_some_and(|d| !d.is_empty())
 }
 
+/// The repository's `assets` folder.
+pub const ASSETS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
+
 /// Where the models are: beside the manifest, also when the program is started from elsewhere.
 pub fn assets() -> AssetPlugin {
-    AssetPlugin { file_path: concat!(env!("CARGO_MANIFEST_DIR"), "/assets").into(), ..default() }
+    AssetPlugin { file_path: ASSETS.into(), ..default() }
 }

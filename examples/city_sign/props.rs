@@ -2,7 +2,7 @@
 
 use crate::cli::Options;
 use crate::scene::ROAD;
-use crate::weathering::{Coat, Loading};
+use crate::weathering::{Loading, Painted};
 use bevy::gltf::GltfAssetLabel;
 use bevy::prelude::*;
 use bevy::world_serialization::WorldInstanceReady;
@@ -21,12 +21,14 @@ pub struct PropsPlugin;
 
 impl Plugin for PropsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Loading>().add_systems(Startup, spawn);
+        app.add_systems(Startup, spawn).add_systems(Update, give_up);
     }
 }
 
 fn place(x: f32, y: f32, z: f32, yaw_degrees: f32, scale: f32) -> Transform {
-    Transform::from_xyz(x, y, z).with_rotation(Quat::from_rotation_y(yaw_degrees.to_radians())).with_scale(Vec3::splat(scale))
+    Transform::from_xyz(x, y, z)
+        .with_rotation(Quat::from_rotation_y(yaw_degrees.to_radians()))
+        .with_scale(Vec3::splat(scale))
 }
 
 fn tilted(transform: Transform, x_degrees: f32, z_degrees: f32) -> Transform {
@@ -36,7 +38,8 @@ fn tilted(transform: Transform, x_degrees: f32, z_degrees: f32) -> Transform {
 
 fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>, mut loading: ResMut<Loading>) {
     let dusty = Color::linear_rgb(0.50, 0.45, 0.40);
-    let prop = |file, place, painted: &[(&'static str, u32)]| Prop { file, place, painted: painted.to_vec(), tint: dusty };
+    let prop =
+        |file, place, painted: &[(&'static str, u32)]| Prop { file, place, painted: painted.to_vec(), tint: dusty };
     let as_is = |prop| Prop { tint: Color::WHITE, ..prop };
     let props = [
         as_is(prop(
@@ -45,13 +48,25 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
             &[("plate", options.triangles), ("post_left", 1600), ("post_right", 1600)],
         )),
         prop("props/prop_firehydrant.glb", place(-1.02, 0.0, -2.3, 25.0, 3.5), &[("firehydrant", 3000)]),
-        prop("props/prop_car.glb", tilted(place(-5.4, ROAD + 0.30, -9.4, 32.0, 5.2), 0.0, 2.0), &[("car_hatchback", 5000)]),
+        prop(
+            "props/prop_car.glb",
+            tilted(place(-5.4, ROAD + 0.30, -9.4, 32.0, 5.2), 0.0, 2.0),
+            &[("car_hatchback", 5000)],
+        ),
         prop("props/prop_container.glb", place(-3.0, ROAD, -6.9, 12.0, 3.5), &[("containers_A", 3000)]),
-        prop("props/prop_barrier.glb", tilted(place(-7.6, ROAD, -6.2, 100.0, 8.0), 0.0, 0.0), &[("construction-barrier", 1200)]),
-        prop("props/prop_barrier.glb", tilted(place(-3.6, ROAD, -14.5, 75.0, 8.0), 0.0, 0.0), &[("construction-barrier", 1200)]),
+        prop(
+            "props/prop_barrier.glb",
+            tilted(place(-7.6, ROAD, -6.2, 100.0, 8.0), 0.0, 0.0),
+            &[("construction-barrier", 1200)],
+        ),
+        prop(
+            "props/prop_barrier.glb",
+            tilted(place(-3.6, ROAD, -14.5, 75.0, 8.0), 0.0, 0.0),
+            &[("construction-barrier", 1200)],
+        ),
         prop("props/prop_dumpster.glb", place(2.35, 0.02, -9.0, 78.0, 4.3), &[("dumpster", 3000)]),
         prop("props/prop_sign_highway.glb", tilted(place(-5.8, 0.0, -29.0, -90.0, 11.0), 0.0, 1.5), &[]),
-        prop("props/prop_lantern.glb", tilted(place(-11.2, 0.0, -6.0, 10.0, 3.6), 2.0, -5.0), &[]),
+        prop("props/prop_lantern.glb", tilted(place(2.0, 0.0, -4.3, 10.0, 1.0), 78.0, 20.0), &[]),
         prop("props/prop_watertower.glb", tilted(place(-34.0, 0.0, -62.0, 20.0, 26.0), 0.0, 3.0), &[]),
     ];
     for (index, prop) in props.into_iter().enumerate() {
@@ -83,10 +98,22 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
                     if let Some((at, (_, triangles))) =
                         prop.painted.iter().enumerate().find(|(_, (painted, _))| *painted == name.as_str())
                     {
-                        commands.entity(entity).insert(Coat { triangles: *triangles, seed: seed.wrapping_add(at as u64) });
+                        commands
+                            .entity(entity)
+                            .insert(Painted { triangles: *triangles, seed: seed.wrapping_add(at as u64) });
                     }
                 }
             },
         );
+    }
+}
+
+/// A model that cannot be loaded would be waited for in vain.
+fn give_up(assets: Res<AssetServer>, props: Query<&WorldAssetRoot>, mut exit: MessageWriter<AppExit>) {
+    for prop in &props {
+        if assets.load_state(&prop.0).is_failed() {
+            error!("A model of the scene is missing; run the example from a whole copy of the repository.");
+            exit.write(AppExit::error());
+        }
     }
 }
