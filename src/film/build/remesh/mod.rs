@@ -18,6 +18,8 @@ mod reference;
 mod relax;
 mod sites;
 mod split;
+#[cfg(test)]
+mod tests;
 mod topology;
 
 use rand::SeedableRng;
