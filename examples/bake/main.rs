@@ -46,7 +46,7 @@ fn run(args: &Args, stopwatch: Stopwatch) -> Result<(), Failure> {
         files.add(path, &common::aged_glb(&mut baked)?)?;
     }
     if let Some(path) = &args.dump {
-        files.add(path, common::dump_csv(&baked.films).as_bytes())?;
+        files.add(path, common::dump_csv(&baked.props, &baked.films).as_bytes())?;
     }
     let stats = baked.stats();
     if let Some(path) = &args.stats {

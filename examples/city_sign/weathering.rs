@@ -99,7 +99,10 @@ impl Progress<'_, '_> {
     /// Every prop is in the scene, and every painted mesh has its film.
     pub fn is_ready(&self) -> bool {
         let (films, wanted) = self.films();
-        self.loading.props > 0 && self.loading.loaded == self.loading.props && self.status.waiting == 0 && films >= wanted
+        self.loading.props > 0
+            && self.loading.loaded == self.loading.props
+            && self.status.waiting == 0
+            && films >= wanted
     }
 
     /// Age of the youngest film.

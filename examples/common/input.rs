@@ -104,6 +104,12 @@ fn piece(generator: Generator, triangles: u32, seed: u64, origin: &str) -> Resul
     let mut model = Model::default();
     let material = Some(model.materials.add_plain_paint());
     let slots = vec![Slot { material, uvs: !piece.surface.uvs.is_empty(), ..Slot::default() }];
-    model.meshes.push(ModelMesh { name, surface: piece.surface, slots, film: Some(piece.film) });
+    model.meshes.push(ModelMesh {
+        name,
+        surface: piece.surface,
+        slots,
+        film: Some(piece.film),
+        ..ModelMesh::default()
+    });
     Ok(model)
 }

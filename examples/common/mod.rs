@@ -9,16 +9,16 @@
 //! #[path = "../common/mod.rs"]
 //! mod common;
 //!
-//! let model = common::read(&common::Input::File("sign.glb".into()), seed, true)?;
-//! let mut baked = common::bake(model, &common::BakeOptions::default(), &())?;
+//! let stopwatch = common::Stopwatch::start();
+//! let model = common::read(&common::Input::File("sign.glb".into()), 0, true)?;
+//! let mut baked = common::bake(model, &common::BakeOptions::default(), stopwatch, &())?;
 //! let mut files = common::Staged::default();
 //! files.add("aged.glb", &common::aged_glb(&mut baked)?)?;
 //! files.add("aged.json", baked.stats().to_json().as_bytes())?;
 //! files.commit()?;
 //! ```
 
-// Each example includes this folder as a module of its own and uses a part of it.
-#![allow(dead_code, unused_imports)]
+#![allow(dead_code, unused_imports, reason = "each example includes this folder as a module and uses a part of it")]
 
 mod bake;
 mod base64;
@@ -32,7 +32,6 @@ mod obj;
 mod output;
 mod parallel;
 mod props;
-mod shown;
 mod stats;
 mod stopwatch;
 

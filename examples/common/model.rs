@@ -1,6 +1,7 @@
 //! A prop as it was read: surfaces in scene space, and its materials.
 
 use bevy_coating::film::build::{BuiltFilm, Surface};
+use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
 
 /// All that a file holds and ageing needs.
@@ -23,12 +24,25 @@ pub struct Model {
 pub struct ModelMesh {
     /// Name of the node.
     pub name: String,
-    /// Its triangles, in scene space. The surface's slots index [`Self::slots`].
+    /// Its triangles, in scene space but for the place: around [`Self::origin`]. The surface's slots index
+    /// [`Self::slots`].
     pub surface: Surface,
+    /// Where in the scene the surface's zero lies. Far from it single precision is too coarse for a film: the rule
+    /// that no vertex lies below its plane asks for 1e-5 of an edge.
+    pub origin: Vec3,
     /// One a primitive.
     pub slots: Vec<Slot>,
     /// A film that comes with the mesh (test pieces); else one is built.
     pub film: Option<BuiltFilm>,
+}
+
+/// Moves positions to around the middle of their bounding box, which is given too.
+pub fn centred(positions: &[DVec3]) -> (Vec<Vec3>, Vec3) {
+    let finite = || positions.iter().copied().filter(|p| p.is_finite());
+    let bounds = finite().map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)));
+    let middle = bounds.map_or(Vec3::ZERO, |(low, high)| (low * 0.5 + high * 0.5).as_vec3());
+    let middle = if middle.is_finite() { middle } else { Vec3::ZERO };
+    (positions.iter().map(|&p| (p - middle.as_dvec3()).as_vec3()).collect(), middle)
 }
 
 /// What a primitive has, so that nothing is made up in the aged model.

@@ -7,9 +7,9 @@
 use std::{fs, path::Path, str::FromStr};
 
 use bevy_coating::film::build::Surface;
-use bevy_math::{Vec2, Vec3, Vec4, ops};
+use bevy_math::{DVec3, Vec2, Vec3, Vec4, ops};
 
-use super::{BakeError, Model, ModelMesh, Slot};
+use super::{BakeError, Model, ModelMesh, Slot, model::centred};
 
 /// Faces that meet at more than this angle, in radians, have a crease between them where the file gives no
 /// normals.
@@ -154,12 +154,14 @@ impl Reader {
             surface.colors =
                 corners().map(|corner| self.colors.get(corner.0 as usize).copied().unwrap_or(Vec4::ONE)).collect();
         }
-        surface.positions = self.positions;
+        let positions: Vec<DVec3> = self.positions.iter().map(|p| p.as_dvec3()).collect();
+        let (positions, origin) = centred(&positions);
+        surface.positions = positions;
         let material = Some(model.materials.add_plain_paint());
         let (uvs, colors) = (!surface.uvs.is_empty(), !surface.colors.is_empty());
         let slots = vec![Slot { material, uvs, colors, ..Slot::default() }];
         if !surface.triangles.is_empty() {
-            model.meshes.push(ModelMesh { name, surface, slots, film: None });
+            model.meshes.push(ModelMesh { name, surface, origin, slots, film: None });
         }
         model
     }

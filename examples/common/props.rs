@@ -5,6 +5,7 @@ use bevy_coating::{
     settings::CoatingSettings,
     sim::FilmState,
 };
+use bevy_math::Vec3;
 
 use super::{BakeError, MaterialLibrary, Model, ModelMesh, Slot, parallel};
 
@@ -28,8 +29,10 @@ pub enum Resolution {
 pub struct Prop {
     /// Its name.
     pub name: String,
-    /// Its own surface.
+    /// Its own surface, around [`Self::origin`].
     pub surface: Surface,
+    /// Where in the scene the surface's zero lies.
+    pub origin: Vec3,
     /// Its primitives.
     pub slots: Vec<Slot>,
     /// The film at rest.
@@ -71,13 +74,13 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, coating: &Coating) -> Result<C
     let mut coated = Coated::default();
     let mut nothing = None;
     for Job { mesh, result, .. } in jobs {
-        let ModelMesh { name, surface, slots, .. } = mesh;
+        let ModelMesh { name, surface, origin: place, slots, .. } = mesh;
         let broken = |cause: &str| BakeError::Broken { origin: origin.into(), mesh: name.clone(), cause: cause.into() };
         match result {
             Some(Ok((built, film))) => {
                 coated.warnings.extend(built.warnings.iter().map(|w| format!("{name}: {}", warning(w))));
                 coated.films.push(film.ok_or_else(|| broken("its faces are no oriented manifold"))?);
-                coated.props.push(Prop { name, surface, slots, built });
+                coated.props.push(Prop { name, surface, origin: place, slots, built });
             }
             Some(Err(source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. }))) => {
                 coated.warnings.push(format!("{name}: left out: {source}"));

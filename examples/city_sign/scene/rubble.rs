@@ -144,7 +144,13 @@ fn chunk(site: &mut Site, mesh: &mut MeshBuilder, transform: &Transform, size: f
         direction * cuts.iter().map(cut).fold(sides, f32::min)
     };
     // Small pieces need few faces: the sides of a cube, cut finer for the large ones.
-    let steps = if size > 0.22 { 4 } else if size > 0.10 { 2 } else { 1 };
+    let steps = if size > 0.22 {
+        4
+    } else if size > 0.10 {
+        2
+    } else {
+        1
+    };
     for axis in 0..3 {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         for side in [-1.0, 1.0] {

@@ -25,15 +25,8 @@ pub fn build(site: &mut Site) {
     let left = |z: f32| Transform::from_xyz(FAR_KERB - 3.6, -0.2, z).with_rotation(Quat::from_rotation_y(FRAC_PI_2));
     let right = |x: f32, z: f32| Transform::from_xyz(x, -0.2, z).with_rotation(Quat::from_rotation_y(-FRAC_PI_2));
     let far = |x: f32, z: f32, yaw: f32| Transform::from_xyz(x, -0.3, z).with_rotation(Quat::from_rotation_y(yaw));
-    let building = |place, width, depth, storeys, ruin, cell, tint| Building {
-        place,
-        width,
-        depth,
-        storeys,
-        ruin,
-        cell,
-        tint,
-    };
+    let building =
+        |place, width, depth, storeys, ruin, cell, tint| Building { place, width, depth, storeys, ruin, cell, tint };
     let sand = Vec3::new(1.0, 0.93, 0.82);
     let ochre = Vec3::new(1.0, 0.82, 0.60);
     let grey = Vec3::new(0.82, 0.83, 0.84);
@@ -112,7 +105,9 @@ fn raise(
         two_sided: near,
     };
     // Front, back and the two ends; local x runs along the wall seen from outside.
-    let stand = |x: f32, z: f32, yaw: f32| building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw));
+    let stand = |x: f32, z: f32, yaw: f32| {
+        building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw))
+    };
     let sides = [
         (stand(0.0, 0.0, 0.0), width, true),
         (stand(width, 0.0, FRAC_PI_2), depth, near),
@@ -151,8 +146,11 @@ fn raise(
             let steps = (wall.length / 0.5) as u32;
             let points = (0..=steps).map(|i| Vec2::new(i as f32 * 0.5, level));
             // The wall must stand well above the floor, or it has fallen with it.
-            let firm = points.filter(|at| wall.solid(*at - Vec2::Y * 0.5) > 0.1 && wall.solid(*at + Vec2::Y * 0.3) > 0.0);
-            floor.bearings.extend(firm.map(|at| back.transform_point3(stand.transform_point(at.extend(0.0))).truncate()));
+            let firm =
+                points.filter(|at| wall.solid(*at - Vec2::Y * 0.5) > 0.1 && wall.solid(*at + Vec2::Y * 0.3) > 0.0);
+            floor
+                .bearings
+                .extend(firm.map(|at| back.transform_point3(stand.transform_point(at.extend(0.0))).truncate()));
         }
         if floor.bearings.is_empty() {
             continue;
@@ -204,7 +202,8 @@ fn reinforcement(site: &mut Site, wall: &Wall, place: &Transform, mesh: &mut Mes
         if y <= 0.5 || y > wall.height - 0.3 || site.between(0.0, 1.0) < 0.35 {
             continue;
         }
-        let lean = Vec3::new(site.between(-0.6, 0.6), site.between(0.2, 1.0), site.between(-0.7, 0.7)).normalize_or(Vec3::Y);
+        let lean =
+            Vec3::new(site.between(-0.6, 0.6), site.between(0.2, 1.0), site.between(-0.7, 0.7)).normalize_or(Vec3::Y);
         let length = site.between(0.3, 1.1);
         let bend = Vec3::new(site.between(-0.5, 0.5), -0.5, site.between(-0.5, 0.5));
         let root = Vec3::new(x, y - 0.15, site.between(-0.1, 0.1));

@@ -110,7 +110,12 @@ fn weeds(site: &mut Site) {
             let corner = |p: Vec3, dark: f32| Corner::new(p, Vec2::ZERO, shade * dark);
             let middle = root + Vec3::Y * height * 0.6 + bent * 0.35;
             let tip = root + Vec3::Y * height + bent;
-            mesh.polygon(&[corner(root - across, 0.5), corner(root + across, 0.5), corner(middle + across, 0.9), corner(middle - across, 0.9)]);
+            mesh.polygon(&[
+                corner(root - across, 0.5),
+                corner(root + across, 0.5),
+                corner(middle + across, 0.9),
+                corner(middle - across, 0.9),
+            ]);
             mesh.polygon(&[corner(middle - across, 0.9), corner(middle + across, 0.9), corner(tip, 1.1)]);
         }
     }

@@ -52,7 +52,9 @@ impl Surfaces {
                 scope.spawn(|| draw(512, 5.0, plaster)),
                 scope.spawn(|| draw(512, 2.0, concrete)),
             ]
-            .map(|thread| thread.join().unwrap_or_else(|_| draw(1, 1.0, |_| Texel { colour: Vec3::splat(0.3), height: 0.0 })))
+            .map(|thread| {
+                thread.join().unwrap_or_else(|_| draw(1, 1.0, |_| Texel { colour: Vec3::splat(0.3), height: 0.0 }))
+            })
         });
         let mut add = |(colour, normals, size): (Image, Image, f32)| Surface {
             colour: images.add(colour),

@@ -1,8 +1,9 @@
 //! The binary chunk: accessors and images, each in a buffer view of its own.
 
+use bevy_coating::shown::ShownPart;
 use serde_json::{Map, Value, json};
 
-use crate::common::shown::Part;
+use crate::common::Slot;
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_SHORT: u32 = 5123;
@@ -21,26 +22,28 @@ pub struct BinaryChunk {
 }
 
 impl BinaryChunk {
-    /// Adds a primitive without material.
-    pub fn primitive(&mut self, part: &Part) -> Value {
+    /// Adds a primitive, with those attributes that the slot `has`.
+    pub fn primitive(&mut self, part: &ShownPart, has: Slot, material: Option<usize>) -> Value {
         let mut attributes = Map::new();
         attributes.insert("POSITION".into(), self.attribute(&part.positions, true).into());
-        let mut put = |name: &str, accessor: Option<usize>| {
-            if let Some(accessor) = accessor {
-                attributes.insert(name.into(), accessor.into());
-            }
-        };
-        put("NORMAL", self.optional(&part.normals));
-        put("TANGENT", self.optional(&part.tangents));
-        put("TEXCOORD_0", self.optional(&part.uvs));
-        put("TEXCOORD_1", self.optional(&part.uvs_1));
-        put("COLOR_0", self.optional(&part.colors));
+        attributes.insert("NORMAL".into(), self.attribute(&part.normals, false).into());
+        if has.tangents && !part.tangents.is_empty() {
+            attributes.insert("TANGENT".into(), self.attribute(&part.tangents, false).into());
+        }
+        if has.uvs && !part.uvs.is_empty() {
+            attributes.insert("TEXCOORD_0".into(), self.attribute(&part.uvs, false).into());
+        }
+        if has.uvs_1 && !part.uvs_1.is_empty() {
+            attributes.insert("TEXCOORD_1".into(), self.attribute(&part.uvs_1, false).into());
+        }
+        if has.colors && !part.colors.is_empty() {
+            attributes.insert("COLOR_0".into(), self.attribute(&part.colors, false).into());
+        }
         let indices = self.indices(&part.indices, part.positions.len());
-        json!({ "attributes": attributes, "indices": indices })
-    }
-
-    fn optional<const N: usize>(&mut self, vectors: &[[f32; N]]) -> Option<usize> {
-        (!vectors.is_empty()).then(|| self.attribute(vectors, false))
+        match material {
+            Some(material) => json!({ "attributes": attributes, "indices": indices, "material": material }),
+            None => json!({ "attributes": attributes, "indices": indices }),
+        }
     }
 
     /// Adds vertex attributes; gives the accessor. `bounds` are required for positions.

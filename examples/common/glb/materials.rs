@@ -3,57 +3,29 @@
 use serde_json::{Map, Value, json};
 
 use super::buffer::BinaryChunk;
-use crate::common::{MaterialLibrary, Slot, shown::Matter};
+use crate::common::MaterialLibrary;
 
 /// The prop's materials in their order, then those that were needed besides.
 pub struct Materials<'a> {
     library: &'a MaterialLibrary,
     materials: Vec<Value>,
-    /// One-sided copies of two-sided materials.
-    one_sided: Vec<Option<usize>>,
     primer: Option<usize>,
     metal: Option<usize>,
 }
 
 impl<'a> Materials<'a> {
     pub fn new(library: &'a MaterialLibrary) -> Self {
-        let materials = library.materials.clone();
-        Self { library, one_sided: vec![None; materials.len()], materials, primer: None, metal: None }
+        Self { library, materials: library.materials.clone(), primer: None, metal: None }
     }
 
-    /// The material of some matter; `None` is glTF's default.
-    pub fn of(&mut self, matter: Matter, slots: &[Slot]) -> Option<usize> {
-        match matter {
-            Matter::Paint { slot, separated } => {
-                let own = slots.get(slot)?.material?;
-                if separated { self.one_sided(own) } else { Some(own) }
-            }
-            Matter::Primer => Some(*self.primer.get_or_insert_with(|| push(&mut self.materials, primer()))),
-            Matter::Metal => Some(*self.metal.get_or_insert_with(|| push(&mut self.materials, metal()))),
-        }
+    /// The material of the backs of flakes.
+    pub fn primer(&mut self) -> usize {
+        *self.primer.get_or_insert_with(|| push(&mut self.materials, primer()))
     }
 
-    /// The back of separated paint is primer: shown from both sides, paint would cover it.
-    fn one_sided(&mut self, own: usize) -> Option<usize> {
-        let material = self.materials.get(own)?;
-        if material.get("doubleSided") != Some(&Value::Bool(true)) {
-            return Some(own);
-        }
-        if let Some(&Some(copy)) = self.one_sided.get(own) {
-            return Some(copy);
-        }
-        let mut copy = material.clone();
-        if let Some(fields) = copy.as_object_mut() {
-            fields.remove("doubleSided");
-            let name = fields.get("name").and_then(Value::as_str).unwrap_or("material");
-            let name = format!("{name}, separated");
-            fields.insert("name".into(), name.into());
-        }
-        let index = push(&mut self.materials, copy);
-        if let Some(known) = self.one_sided.get_mut(own) {
-            *known = Some(index);
-        }
-        Some(index)
+    /// The material of bare metal.
+    pub fn metal(&mut self) -> usize {
+        *self.metal.get_or_insert_with(|| push(&mut self.materials, metal()))
     }
 
     /// Writes materials, textures, samplers and images into the root object, and the extensions they use.

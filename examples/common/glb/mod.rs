@@ -1,15 +1,17 @@
 //! Writing an aged model as binary glTF 2.0.
 //!
-//! One node and mesh for each prop, in scene space, with one primitive for each material: the prop's own where the
-//! paint holds, the same seen from the front only where it has separated, primer on the backs of flakes, and rusted
-//! metal beneath.
+//! One node and mesh for each prop, moved to its place in the scene, with one primitive for each material: the prop's own on the film,
+//! primer on the backs of flakes, and rusted metal beneath. What is shown is made by `bevy_coating::shown`, as in a
+//! running game.
 
 mod buffer;
 mod materials;
 
+use bevy_coating::shown::ShownFilm;
+use bevy_math::Vec3;
 use serde_json::{Map, Value, json};
 
-use super::{BakeError, Baked, shown};
+use super::{BakeError, Baked, Slot, props::Prop};
 use buffer::BinaryChunk;
 use materials::Materials;
 
@@ -19,31 +21,23 @@ use materials::Materials;
 /// [`BakeError::TooLarge`].
 pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
     let Baked { props, films, stopwatch, materials, .. } = baked;
-    let shown = stopwatch.mesh(|| {
-        let parts = props.iter().zip(films.iter());
-        parts.map(|(prop, film)| shown::parts(prop, film)).collect::<Vec<_>>()
+    let shown: Vec<ShownFilm> = stopwatch.mesh(|| {
+        let pairs = props.iter().zip(films.iter());
+        pairs.map(|(prop, film)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces)).collect()
     });
     let mut chunk = BinaryChunk::default();
     let mut materials = Materials::new(materials);
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
-    for (prop, parts) in props.iter().zip(&shown) {
-        let primitives: Vec<Value> = parts
-            .iter()
-            .map(|part| {
-                let mut primitive = chunk.primitive(part);
-                if let (Some(material), Some(fields)) =
-                    (materials.of(part.matter, &prop.slots), primitive.as_object_mut())
-                {
-                    fields.insert("material".into(), material.into());
-                }
-                primitive
-            })
-            .collect();
-        if primitives.is_empty() {
-            continue;
+    for (prop, shown) in props.iter().zip(&shown) {
+        let primitives = primitives(prop, shown, &mut chunk, &mut materials);
+        if !primitives.is_empty() {
+            let mut node = json!({ "name": prop.name, "mesh": meshes.len() });
+            if let (true, Some(fields)) = (prop.origin != Vec3::ZERO, node.as_object_mut()) {
+                fields.insert("translation".into(), json!(prop.origin.to_array()));
+            }
+            nodes.push(node);
+            meshes.push(json!({ "name": prop.name, "primitives": primitives }));
         }
-        nodes.push(json!({ "name": prop.name, "mesh": meshes.len() }));
-        meshes.push(json!({ "name": prop.name, "primitives": primitives }));
     }
 
     let mut root = Map::new();
@@ -59,6 +53,25 @@ pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
     materials.write(&mut chunk, &mut root);
     let bytes = chunk.finish(&mut root);
     assemble(&root, bytes).ok_or_else(|| BakeError::TooLarge { origin: baked.origin.clone() })
+}
+
+/// The primitives of one prop.
+fn primitives(prop: &Prop, shown: &ShownFilm, chunk: &mut BinaryChunk, materials: &mut Materials) -> Vec<Value> {
+    let mut primitives = Vec::new();
+    for (i, &slot) in prop.slots.iter().enumerate() {
+        if let Some(front) = shown.front(i).filter(|part| !part.is_empty()) {
+            primitives.push(chunk.primitive(front, slot, slot.material));
+        }
+    }
+    // Neither has a texture, so neither needs coordinates for one.
+    let plain = Slot::default();
+    if !shown.backs().is_empty() {
+        primitives.push(chunk.primitive(shown.backs(), plain, Some(materials.primer())));
+    }
+    if !shown.metal().is_empty() {
+        primitives.push(chunk.primitive(shown.metal(), plain, Some(materials.metal())));
+    }
+    primitives
 }
 
 /// Header, JSON chunk and binary chunk; `None` beyond 4 GiB.

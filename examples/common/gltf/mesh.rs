@@ -1,14 +1,14 @@
 //! Primitives of a mesh, welded into one surface: the paint does not care where one material ends.
 
 use bevy_coating::film::build::Surface;
-use bevy_math::{DMat3, Mat3, Mat4, Vec2, Vec3, Vec4};
+use bevy_math::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
 use super::{
     GltfError,
     container::Container,
     document::{Mesh, Primitive, lookup},
 };
-use crate::common::{ModelMesh, Slot};
+use crate::common::{ModelMesh, Slot, model::centred};
 
 /// Most triangles a file may put into its scene.
 pub const MAX_TRIANGLES: usize = 1 << 24;
@@ -25,7 +25,7 @@ pub struct Placed {
 }
 
 /// Places mesh `index` under `transform`. `node` is its name in messages.
-pub fn place(container: &Container, index: usize, transform: Mat4, node: &str) -> Result<Placed, GltfError> {
+pub fn place(container: &Container, index: usize, transform: DMat4, node: &str) -> Result<Placed, GltfError> {
     let mesh = lookup(&container.document.meshes, index, "mesh", &format!("node {node}"))?;
     let mut placed = Placed { mesh: ModelMesh::default(), skipped: 0, morphed: false, more_uvs: false };
     let primitives = read_primitives(container, index, mesh, &mut placed)?;
@@ -34,15 +34,14 @@ pub fn place(container: &Container, index: usize, transform: Mat4, node: &str) -
 
     // Primitives often share their vertices: each set of positions is taken once.
     let mut bases: Vec<(usize, u32)> = Vec::new();
+    let mut positions: Vec<DVec3> = Vec::new();
     for primitive in &primitives {
         if bases.iter().all(|&(accessor, _)| accessor != primitive.position) {
-            bases.push((primitive.position, surface.positions.len() as u32));
-            surface.positions.extend(primitive.positions.iter().map(|&p| space.point(p.into())));
+            bases.push((primitive.position, positions.len() as u32));
+            positions.extend(primitive.positions.iter().map(|&p| space.point(p)));
         }
     }
-    if let Some(vertex) = surface.positions.iter().position(|p| !p.is_finite()) {
-        return Err(GltfError::NonFinite { node: node.into(), vertex });
-    }
+    (surface.positions, placed.mesh.origin) = centred(&positions);
 
     let some = |has: fn(&Data) -> bool| primitives.iter().any(has);
     let (normals, tangents) = (some(|p| p.normals.is_some()), some(|p| p.tangents.is_some()));
@@ -54,6 +53,10 @@ pub fn place(container: &Container, index: usize, transform: Mat4, node: &str) -
             let corners = local.map(|v| v as usize);
             let vertices = local.map(|v| base + v);
             let points = vertices.map(|v| surface.positions[v as usize]);
+            // Vertices that no triangle uses may be anywhere.
+            if let Some(i) = points.iter().position(|p| !p.is_finite()) {
+                return Err(GltfError::NonFinite { node: node.into(), vertex: vertices[i] as usize });
+            }
             let flat = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or(Vec3::Y);
             surface.triangles.push(vertices);
             surface.slots.push(slot as u32);
@@ -81,7 +84,8 @@ pub fn place(container: &Container, index: usize, transform: Mat4, node: &str) -
             }
             if colors {
                 let color = |v: usize| primitive.colors.as_ref().map(|colors| Vec4::from(colors[v]));
-                surface.colors.extend(corners.map(|v| color(v).filter(|c| c.is_finite()).unwrap_or(Vec4::ONE)));
+                let valid = |c: Vec4| c.is_finite().then(|| c.clamp(Vec4::ZERO, Vec4::ONE));
+                surface.colors.extend(corners.map(|v| color(v).and_then(valid).unwrap_or(Vec4::ONE)));
             }
         }
     }
@@ -209,15 +213,15 @@ fn triangles(list: &[u32], mode: u32) -> Vec<[u32; 3]> {
 
 /// From the mesh's space to the scene's.
 struct Space {
-    transform: Mat4,
+    transform: DMat4,
     /// For normals: the cofactors, which need no inverse and so hold for flattened meshes too.
     cofactors: DMat3,
     mirrored: bool,
 }
 
 impl Space {
-    fn new(transform: Mat4) -> Self {
-        let m = Mat3::from_mat4(transform).as_dmat3();
+    fn new(transform: DMat4) -> Self {
+        let m = DMat3::from_mat4(transform);
         let mirrored = m.determinant() < 0.0;
         let sign = if mirrored { -1.0 } else { 1.0 };
         let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
@@ -225,8 +229,8 @@ impl Space {
         Self { transform, cofactors, mirrored }
     }
 
-    fn point(&self, point: Vec3) -> Vec3 {
-        self.transform.transform_point3(point)
+    fn point(&self, point: [f32; 3]) -> DVec3 {
+        self.transform.transform_point3(DVec3::from(point.map(f64::from)))
     }
 
     fn normal(&self, normal: Vec3) -> Option<Vec3> {
@@ -234,7 +238,7 @@ impl Space {
     }
 
     fn tangent(&self, tangent: Vec4, normal: Vec3) -> Vec4 {
-        let direction = self.transform.transform_vector3(tangent.truncate());
+        let direction = self.transform.transform_vector3(tangent.truncate().as_dvec3()).as_vec3();
         let hand = if (tangent.w < 0.0) != self.mirrored { -1.0 } else { 1.0 };
         direction.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector()).extend(hand)
     }

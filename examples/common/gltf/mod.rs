@@ -12,6 +12,9 @@ mod images;
 mod mesh;
 mod scene;
 
+#[cfg(test)]
+mod tests;
+
 use std::{fs, path::Path};
 
 pub use error::GltfError;

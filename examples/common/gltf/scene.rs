@@ -1,6 +1,6 @@
 //! The walk over the scene's nodes.
 
-use bevy_math::{Mat4, Quat, Vec3};
+use bevy_math::{DMat4, DQuat, DVec3};
 
 use super::{
     GltfError,
@@ -25,7 +25,7 @@ pub fn read_meshes(container: &Container, model: &mut Model) -> Result<(), GltfE
     let mut total = 0;
     // A stack, not recursion: a chain of nodes may be as deep as its file is long. Last in, first out, so
     // children are pushed in reverse.
-    let mut stack: Vec<_> = roots.iter().rev().map(|&root| (root, Mat4::IDENTITY)).collect();
+    let mut stack: Vec<_> = roots.iter().rev().map(|&root| (root, DMat4::IDENTITY)).collect();
     while let Some((index, parent)) = stack.pop() {
         let node = lookup(&document.nodes, index, "node", "the scene")?;
         if std::mem::replace(&mut visited[index], true) {
@@ -50,7 +50,7 @@ fn read_node(
     model: &mut Model,
     node: &Node,
     mesh: usize,
-    transform: Mat4,
+    transform: DMat4,
 ) -> Result<usize, GltfError> {
     let unnamed = || format!("mesh {mesh}");
     let mesh_name = || container.document.meshes.get(mesh).and_then(|mesh| mesh.name.clone());
@@ -88,15 +88,17 @@ fn roots(nodes: &[Node]) -> Vec<usize> {
     (0..nodes.len()).filter(|&i| !is_child[i]).collect()
 }
 
-fn local_transform(node: &Node) -> Mat4 {
+/// In double precision: what lies far from the origin is moved near it later.
+fn local_transform(node: &Node) -> DMat4 {
     if let Some(matrix) = &node.matrix {
-        return Mat4::from_cols_array(matrix);
+        return DMat4::from_cols_array(&matrix.map(f64::from));
     }
-    let rotation = Quat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
-    Mat4::from_scale_rotation_translation(
-        node.scale.map_or(Vec3::ONE, Vec3::from),
+    let vector = |v: Option<[f32; 3]>, default: DVec3| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
+    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]).map(f64::from));
+    DMat4::from_scale_rotation_translation(
+        vector(node.scale, DVec3::ONE),
         // A quaternion of zeros is no rotation.
-        if rotation.length_squared() > 0.0 { rotation.normalize() } else { Quat::IDENTITY },
-        node.translation.map_or(Vec3::ZERO, Vec3::from),
+        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY },
+        vector(node.translation, DVec3::ZERO),
     )
 }

@@ -23,9 +23,23 @@ pub(super) fn flip_edges(mesh: &mut WorkMesh) {
     }
 }
 
+/// [`flip_if`], but not to cut through a bend of the surface: the edge may be as far from it as before or as `limit`.
+pub(super) fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32, wanted: fn([Vec3; 4]) -> bool) -> bool {
+    let before = mesh.stray(h);
+    if !flip_if(mesh, h, wanted) {
+        return false;
+    }
+    if mesh.stray(h) <= before.max(limit) {
+        return true;
+    }
+    // A second turn brings the edge back, though the other way round.
+    flip(mesh, h);
+    false
+}
+
 /// Flips the edge between the faces (a, b, c) and (b, a, d) if `wanted`, given those four points, says so and
 /// neither features, topology nor a fold of the surface forbid it. Whether it was flipped.
-pub(super) fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) -> bool {
+fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) -> bool {
     let Some(t) = mesh.topology.twin(h) else { return false };
     if mesh.chain(h).is_some() {
         return false;
@@ -67,7 +81,7 @@ fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
 }
 
 /// Turns the edge a-b between (a, b, c) and (b, a, d) into d-c. Face ids stay.
-pub(super) fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
+fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
     let Some(t) = mesh.topology.twin(h) else { return };
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)];
     let [c, d] = [mesh.topology.opposite(h), mesh.topology.opposite(t)];

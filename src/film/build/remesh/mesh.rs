@@ -163,6 +163,12 @@ impl<'a> WorkMesh<'a> {
         f
     }
 
+    /// Moves a vertex and hands out where it was.
+    pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, Place)) {
+        std::mem::swap(&mut self.positions[v.index()], &mut other.0);
+        std::mem::swap(&mut self.places[v.index()], &mut other.1);
+    }
+
     /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
     /// their line.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {

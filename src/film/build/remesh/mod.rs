@@ -39,21 +39,30 @@ const COLLAPSE: f32 = 4.0 / 5.0;
 const DEVIATION: f32 = 0.08;
 /// How far the middle of an edge may be from the surface, in target edges, before it is split, and after a
 /// collapse; and the shortest edge that is split for it.
-const STRAY_SPLIT: f32 = 0.2;
-const STRAY_COLLAPSE: f32 = 0.12;
+const STRAY_SPLIT: f32 = 0.15;
+const STRAY_COLLAPSE: f32 = 0.1;
 const STRAY_SHORTEST: f32 = 0.5;
 /// Rounds of split, collapse, flip and relax.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 10;
+/// The first of them do not look at bends of the surface.
+const SETTLING_ROUNDS: usize = 4;
+/// Every round shakes the vertices by up to so many target edges: relaxation alone ends in crystals, with straight
+/// rows of equilateral triangles. With it a flat quad looks like blue noise with its Delaunay triangles.
+const JITTER: f32 = 0.4;
+/// Rounds of relaxing without shaking in the end.
+const CALM_ROUNDS: usize = 2;
 /// Rounds of repairs of thin faces.
 const POLISH_ROUNDS: usize = 3;
-/// The first rounds shake the vertices.
-const SHAKEN_ROUNDS: usize = 4;
-/// Faces of this quality and better may be traded for evenness.
+/// Faces of this quality and better may be traded for evenness; while shaking, of this.
 const FAIR: f32 = 0.75;
+const FAIR_SHAKEN: f32 = 0.3;
+/// Mean edge that the rounds settle at, over the edge that their thresholds are made of.
+const SETTLED: f32 = 0.925;
 /// The most the target edge may grow or shrink to meet the count.
 const ADJUSTMENT: f32 = 2.0;
-/// Counts within this share of the target are met.
-const TOLERANCE: f32 = 0.05;
+/// Counts up to this share above the target are met; a target edge length fixes the count less sharply.
+const COUNT_TOLERANCE: f64 = 0.05;
+const LENGTH_TOLERANCE: f64 = 0.25;
 
 /// What to remesh to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,39 +109,57 @@ pub(super) fn remesh(
 
     let mut film = sites::finish(&mesh, surface, clean);
     let found = film.triangles.len();
-    if found as f64 > count * f64::from(1.0 + TOLERANCE) {
+    let tolerance = match target {
+        Target::Count(_) => COUNT_TOLERANCE,
+        Target::Length(_) => LENGTH_TOLERANCE,
+    };
+    if found as f64 > count * (1.0 + tolerance) {
         film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target: count as u32, triangles: found as u32 });
     }
     Ok(film)
 }
 
 fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
-    let mut edge = length;
+    let mut edge = length / SETTLED;
     for round in 0..ROUNDS {
-        let shaken = round < SHAKEN_ROUNDS;
-        let spread = if shaken { 0.4 } else { 0.0 };
-        split::split_edges(mesh, cuts(edge, spread), rng);
+        // Early on the mesh is still too coarse or too fine for its edges to tell bends.
+        let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
+        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge) }, rng);
         flip::flip_edges(mesh);
         collapse::collapse_short_edges(mesh, limits(edge));
         flip::flip_edges(mesh);
-        let jitter = if shaken { 0.25 * edge } else { 0.0 };
-        relax_rounds(mesh, edge, jitter, 2, rng);
+        relax(mesh, edge, JITTER * edge, rng);
         if let Target::Count(_) = target {
             let ratio = (mesh.topology.live_faces() as f64 / count).sqrt() as f32;
             edge = (edge * ratio).clamp(length / ADJUSTMENT, length * ADJUSTMENT);
         }
     }
-    relax_rounds(mesh, edge, 0.0, 2, rng);
-    split::split_edges(mesh, cuts(edge, 0.0), rng);
-    flip::flip_edges(mesh);
+    for _ in 0..CALM_ROUNDS {
+        relax(mesh, edge, 0.0, rng);
+        split::split_edges(mesh, cuts(edge), rng);
+        flip::flip_edges(mesh);
+    }
+    let mut fewest_faces = 4;
+    if let Target::Count(count) = target {
+        meet_count(mesh, edge, count as usize, rng);
+        fewest_faces = (count as usize).saturating_sub(count as usize / 100).max(4);
+    }
     for _ in 0..POLISH_ROUNDS {
-        let limits = CollapseLimits { shortest: edge, longest: 1.5 * edge, quality: 1.0, ..limits(edge) };
+        let limits = CollapseLimits { shortest: edge, longest: 1.5 * edge, quality: 1.0, fewest_faces, ..limits(edge) };
         polish::polish(mesh, limits, edge);
     }
 }
 
-fn cuts(edge: f32, spread: f32) -> SplitLimits {
-    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge, spread }
+/// Collapses the shortest or splits the longest edges until the count is met.
+fn meet_count(mesh: &mut WorkMesh, edge: f32, count: usize, rng: &mut ChaCha8Rng) {
+    let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, fewest_faces: count, ..limits(edge) };
+    collapse::collapse_short_edges(mesh, reserve);
+    split::split_longest_edges(mesh, edge, count, rng);
+    flip::flip_edges(mesh);
+}
+
+fn cuts(edge: f32) -> SplitLimits {
+    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge }
 }
 
 fn limits(edge: f32) -> CollapseLimits {
@@ -146,15 +173,11 @@ fn limits(edge: f32) -> CollapseLimits {
     }
 }
 
-fn relax_rounds(mesh: &mut WorkMesh, edge: f32, jitter: f32, rounds: usize, rng: &mut ChaCha8Rng) {
-    for round in 0..rounds {
-        let jitter = if round == 0 { jitter } else { 0.0 };
-        let quality = if jitter > 0.0 { 0.3 } else { FAIR };
-        let settings =
-            Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, stray: STRAY_COLLAPSE * edge, quality };
-        relax::relax(mesh, settings, rng);
-        flip::flip_edges(mesh);
-    }
+fn relax(mesh: &mut WorkMesh, edge: f32, jitter: f32, rng: &mut ChaCha8Rng) {
+    let quality = if jitter > 0.0 { FAIR_SHAKEN } else { FAIR };
+    let settings = Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, stray: STRAY_COLLAPSE * edge, quality };
+    relax::relax(mesh, settings, rng);
+    flip::flip_edges(mesh);
 }
 
 fn area_of(clean: &CleanSurface) -> f64 {

@@ -3,10 +3,10 @@
 use bevy_math::Vec3;
 
 use super::collapse::{CollapseLimits, try_collapse};
-use super::flip::{flip, flip_if};
+use super::flip::flip_closely;
 use super::mesh::{Place, WorkMesh, quality};
 use super::project::project;
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use crate::film::{FaceId, VertexId};
 
 /// Faces below this quality are worked on: least angles under about 30 degrees.
 const THIN: f32 = 0.7;
@@ -23,7 +23,7 @@ pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
         if !mesh.topology.is_live(f) || quality_of(mesh, f) >= THIN {
             continue;
         }
-        if f.half_edges().into_iter().any(|h| flip_closely(mesh, h, limits.stray)) {
+        if f.half_edges().into_iter().any(|h| flip_closely(mesh, h, limits.stray, raises_quality)) {
             continue;
         }
         let shortest = f.half_edges().into_iter().min_by(|&a, &b| mesh.length(a).total_cmp(&mesh.length(b)));
@@ -51,20 +51,6 @@ fn thin_faces(mesh: &WorkMesh) -> Vec<FaceId> {
 fn quality_of(mesh: &WorkMesh, f: FaceId) -> f32 {
     let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
     quality(a, b, c)
-}
-
-/// Flips an edge for the sake of quality, but not to cut through a bend of the surface.
-fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32) -> bool {
-    let before = mesh.stray(h);
-    if !flip_if(mesh, h, raises_quality) {
-        return false;
-    }
-    if mesh.stray(h) <= before.max(limit) {
-        return true;
-    }
-    // A second turn brings the edge back, though the other way round.
-    flip(mesh, h);
-    false
 }
 
 /// Whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
@@ -106,13 +92,13 @@ fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32, limit: f32) {
             if let Some(quality) = mesh.quality_at(v, position, [None, None])
                 && quality > best
             {
-                let before = (mesh.position(v), mesh.place(v));
-                (mesh.positions[v.index()], mesh.places[v.index()]) = (position, place);
+                let mut other = (position, place);
+                mesh.exchange(v, &mut other);
                 let strays = mesh.stray_around(v);
                 if strays <= stray {
                     (best, stray) = (quality, stray.min(strays.max(limit)));
                 } else {
-                    (mesh.positions[v.index()], mesh.places[v.index()]) = before;
+                    mesh.exchange(v, &mut other);
                 }
             }
         }

@@ -84,7 +84,7 @@ fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
 
 /// The point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
 fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
-    let [a, b, c] = reference.corner_positions(f);
+    let [a, b, c] = reference.triangles[f.index()];
     let weights = nearest_weights(p, a, b, c);
     Foot { triangle: f, position: a * weights.x + b * weights.y + c * weights.z, weights }
 }

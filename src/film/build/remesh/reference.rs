@@ -5,12 +5,14 @@ use bevy_math::Vec3;
 use super::chains::{Chains, NO_CHAIN};
 use super::features::Features;
 use super::topology::Topology;
+use crate::film::HalfEdgeId;
 use crate::film::build::{CleanSurface, Surface};
-use crate::film::{FaceId, HalfEdgeId, VertexId};
 
 pub(super) struct Reference<'a> {
     pub topology: Topology,
     pub positions: &'a [Vec3],
+    /// Corner positions of each triangle: projection looks at little else.
+    pub triangles: Vec<[Vec3; 3]>,
     /// The chain that each half-edge lies on, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
     pub chains: Chains,
@@ -36,7 +38,8 @@ impl<'a> Reference<'a> {
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);
-        Self { topology, positions, chain_of, chains, fixed, patches }
+        let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
+        Self { topology, positions, triangles, chain_of, chains, fixed, patches }
     }
 
     /// Whether the film must follow this edge.
@@ -45,17 +48,8 @@ impl<'a> Reference<'a> {
         self.chain_of[h.index()] != NO_CHAIN
     }
 
-    #[inline]
-    pub fn position(&self, v: VertexId) -> Vec3 {
-        self.positions[v.index()]
-    }
-
     /// How far a chain strays from the chord between two arc lengths.
     pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
         self.chains.deviation(self.positions, chain, from, to)
-    }
-
-    pub fn corner_positions(&self, f: FaceId) -> [Vec3; 3] {
-        self.topology.corners(f).map(|v| self.position(v))
     }
 }

@@ -99,12 +99,20 @@ fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settin
     if !fits {
         return false;
     }
-    let limit = if mesh.is_bent(v) { settings.stray.max(mesh.stray_around(v)) } else { f32::MAX };
-    let before = (mesh.position(v), mesh.place(v));
-    (mesh.positions[v.index()], mesh.places[v.index()]) = (position, place);
-    let fits = limit == f32::MAX || mesh.stray_around(v) <= limit;
-    if !fits {
-        (mesh.positions[v.index()], mesh.places[v.index()]) = before;
+    let was_bent = mesh.is_bent(v);
+    let mut other = (position, place);
+    mesh.exchange(v, &mut other);
+    if !was_bent && !mesh.is_bent(v) {
+        return true;
     }
-    fits
+    let strays = mesh.stray_around(v);
+    if strays <= settings.stray {
+        return true;
+    }
+    mesh.exchange(v, &mut other);
+    if strays > mesh.stray_around(v) {
+        return false;
+    }
+    mesh.exchange(v, &mut other);
+    true
 }

@@ -11,6 +11,9 @@ use crate::film::{HalfEdgeId, VertexId};
 /// Share of a face's area that each half must have after a split.
 const LEAST_HALF: f32 = 0.1;
 
+/// How far from the middle a cut may fall, as a share of the edge: equal halves would make a grid of a flat quad.
+const SPREAD: f32 = 0.4;
+
 /// Which edges are split, and where.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SplitLimits {
@@ -20,9 +23,6 @@ pub(super) struct SplitLimits {
     pub stray: f32,
     /// See `stray`.
     pub shortest: f32,
-    /// How far from the middle a cut may fall, as a share of the edge: equal halves would make a grid of a flat
-    /// quad.
-    pub spread: f32,
 }
 
 /// Splits edges that are too long, the longest first, until none is left, and then once those that cut through
@@ -31,9 +31,12 @@ pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut Ch
     // Each round halves the longest edges: 40 are more than any finite mesh needs.
     for _ in 0..40 {
         let long = mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
-        if !split_all(mesh, long, limits.longest, limits.spread, rng) {
+        if !split_all(mesh, long, limits.longest, usize::MAX, rng) {
             break;
         }
+    }
+    if limits.stray == f32::MAX {
+        return;
     }
     let straying = mesh
         .topology
@@ -41,7 +44,13 @@ pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut Ch
         .map(|h| (mesh.length(h), h))
         .filter(|&(l, h)| l > limits.shortest && mesh.stray(h) > limits.stray)
         .collect();
-    split_all(mesh, straying, limits.shortest, limits.spread, rng);
+    split_all(mesh, straying, limits.shortest, usize::MAX, rng);
+}
+
+/// Splits edges longer than `least`, the longest first, until there are `count` faces.
+pub(super) fn split_longest_edges(mesh: &mut WorkMesh, least: f32, count: usize, rng: &mut ChaCha8Rng) {
+    let long = mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(l, _)| l > least).collect();
+    split_all(mesh, long, least, count, rng);
 }
 
 /// Splits the edges that are still longer than `least` when their turn comes. Whether any was.
@@ -49,14 +58,17 @@ fn split_all(
     mesh: &mut WorkMesh,
     mut edges: Vec<(f32, HalfEdgeId)>,
     least: f32,
-    spread: f32,
+    most_faces: usize,
     rng: &mut ChaCha8Rng,
 ) -> bool {
     edges.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut any = false;
     for (_, h) in edges {
+        if mesh.topology.live_faces() >= most_faces {
+            break;
+        }
         if mesh.length(h) > least {
-            let cut = 0.5 + spread * (rng.random::<f32>() - 0.5);
+            let cut = 0.5 + SPREAD * (rng.random::<f32>() - 0.5);
             any |= split(mesh, h, cut).is_some();
         }
     }
