@@ -9,7 +9,6 @@ use bevy::app::ScheduleRunnerPlugin;
 use bevy::camera::{RenderTarget, Viewport};
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::ExitCondition;
@@ -30,7 +29,7 @@ pub fn add(app: &mut App, options: &Options) {
     app.add_plugins(
         DefaultPlugins
             .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
-            .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
+            .set(graphics::renderer(true))
             .set(LogPlugin { level: Level::WARN, ..default() })
             .set(graphics::assets())
             .disable::<WinitPlugin>(),

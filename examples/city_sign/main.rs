@@ -8,6 +8,7 @@ mod camera;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod debris;
 mod graphics;
 mod headless;
 mod props;
@@ -32,6 +33,6 @@ fn main() -> AppExit {
         window::add(&mut app, &options);
     }
     app.insert_resource(options);
-    app.add_plugins((scene::ScenePlugin, props::PropsPlugin, weathering::WeatheringPlugin));
+    app.add_plugins((scene::ScenePlugin, props::PropsPlugin, weathering::WeatheringPlugin, debris::DebrisPlugin));
     app.run()
 }

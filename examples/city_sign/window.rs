@@ -16,7 +16,7 @@ pub fn add(app: &mut App, options: &Options) {
     let (width, height) = options.size;
     let window = Window { title: "City sign".into(), resolution: WindowResolution::new(width, height), ..default() };
     let window = WindowPlugin { primary_window: Some(window), ..default() };
-    app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()))
+    app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()).set(graphics::renderer(false)))
         .add_plugins(EguiPlugin::default())
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
