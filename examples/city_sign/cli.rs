@@ -31,7 +31,7 @@ pub struct Options {
     #[arg(long, default_value_t = 7)]
     pub seed: u64,
     /// Triangles of the film on the sign's plate.
-    #[arg(long, default_value_t = 9000, value_parser = clap::value_parser!(u32).range(100..=200_000))]
+    #[arg(long, default_value_t = 8000, value_parser = clap::value_parser!(u32).range(100..=200_000))]
     pub triangles: u32,
 }
 

@@ -37,12 +37,13 @@ pub fn add(app: &mut App, options: &Options) {
     )
     .add_plugins(ScheduleRunnerPlugin::run_loop(Duration::ZERO))
     .insert_resource(Session::new(options))
-    // Films grow as fast as they can to the age of the next picture, a second at a time.
+    // Films grow as fast as they can to the age of the next picture, seconds at a time: a frame in
+    // between costs a software renderer a second.
     .add_systems(PreStartup, |mut clock: ResMut<CoatingClock>| {
         clock.age_per_second = 1e3;
         clock.target_age = Some(0.0);
     })
-    .insert_resource(CoatingBudget { max_time: Duration::from_secs(1), max_steps: 1_000 })
+    .insert_resource(CoatingBudget { max_time: Duration::from_secs(4), max_steps: 1_000 })
     .add_systems(Startup, spawn_camera)
     .add_systems(Last, run);
 }
@@ -162,6 +163,7 @@ fn run(
                 let orbit = Orbit::of(view);
                 *transform = orbit.transform();
                 *projection = orbit.projection();
+                session.told = (age * 10.0) as u32;
                 session.say(format_args!("age {age:.2}: drawing"));
                 session.stage = Stage::Settling(SETTLING_FRAMES);
             } else {

@@ -2,6 +2,7 @@
 
 use crate::cli::Options;
 use crate::scene::ROAD;
+use crate::weathering::Wear::{self, Sheltered, Street};
 use crate::weathering::{Loading, Painted};
 use bevy::gltf::GltfAssetLabel;
 use bevy::prelude::*;
@@ -11,8 +12,9 @@ use bevy::world_serialization::WorldInstanceReady;
 struct Prop {
     file: &'static str,
     place: Transform,
-    /// Names of painted nodes with the triangles of their films; empty: the prop does not age.
-    painted: Vec<(&'static str, u32)>,
+    /// Names of painted nodes, the triangles of their films, and how they have fared; empty: the prop does not
+    /// age.
+    painted: Vec<(&'static str, u32, Wear)>,
     /// Multiplies the material's colour: toys' colours are too clean for this street.
     tint: Color,
 }
@@ -37,37 +39,61 @@ fn tilted(transform: Transform, x_degrees: f32, z_degrees: f32) -> Transform {
 }
 
 fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>, mut loading: ResMut<Loading>) {
-    let dusty = Color::linear_rgb(0.50, 0.45, 0.40);
-    let prop =
-        |file, place, painted: &[(&'static str, u32)]| Prop { file, place, painted: painted.to_vec(), tint: dusty };
-    let as_is = |prop| Prop { tint: Color::WHITE, ..prop };
+    let prop = |file, place, painted: &[(&'static str, u32, Wear)], [r, g, b]: [f32; 3]| Prop {
+        file,
+        place,
+        painted: painted.to_vec(),
+        tint: Color::linear_rgb(r, g, b),
+    };
+    let dusty = [0.46, 0.41, 0.36];
+    let faded_red = [0.50, 0.62, 0.62];
     let props = [
-        as_is(prop(
+        prop(
             "city/street_sign.glb",
             Transform::default(),
-            &[("plate", options.triangles), ("post_left", 1600), ("post_right", 1600)],
-        )),
-        prop("props/prop_firehydrant.glb", place(-1.02, 0.0, -2.3, 25.0, 3.5), &[("firehydrant", 3000)]),
+            &[("plate", options.triangles, Street), ("post_left", 1600, Sheltered), ("post_right", 1600, Sheltered)],
+            [1.0; 3],
+        ),
+        prop(
+            "props/prop_firehydrant.glb",
+            place(-1.02, 0.0, -2.3, 25.0, 3.5),
+            &[("firehydrant", 3000, Street)],
+            faded_red,
+        ),
         prop(
             "props/prop_car.glb",
             tilted(place(-5.4, ROAD + 0.30, -9.4, 32.0, 5.2), 0.0, 2.0),
-            &[("car_hatchback", 5000)],
+            &[("car_hatchback", 6000, Sheltered)],
+            faded_red,
         ),
-        prop("props/prop_container.glb", place(-3.0, ROAD, -6.9, 12.0, 3.5), &[("containers_A", 3000)]),
+        // Green plastic as published; tinted to oil drums' olive.
+        prop(
+            "props/prop_container.glb",
+            place(-3.0, ROAD, -6.9, 12.0, 3.5),
+            &[("containers_A", 3000, Street)],
+            [0.62, 0.20, 0.22],
+        ),
         prop(
             "props/prop_barrier.glb",
-            tilted(place(-7.6, ROAD, -6.2, 100.0, 8.0), 0.0, 0.0),
-            &[("construction-barrier", 1200)],
+            place(-7.6, ROAD, -6.2, 100.0, 8.0),
+            &[("construction-barrier", 2000, Street)],
+            dusty,
         ),
         prop(
             "props/prop_barrier.glb",
-            tilted(place(-3.6, ROAD, -14.5, 75.0, 8.0), 0.0, 0.0),
-            &[("construction-barrier", 1200)],
+            place(-3.6, ROAD, -14.5, 75.0, 8.0),
+            &[("construction-barrier", 2000, Street)],
+            dusty,
         ),
-        prop("props/prop_dumpster.glb", place(2.35, 0.02, -9.0, 78.0, 4.3), &[("dumpster", 3000)]),
-        prop("props/prop_sign_highway.glb", tilted(place(-5.8, 0.0, -29.0, -90.0, 11.0), 0.0, 1.5), &[]),
-        prop("props/prop_lantern.glb", tilted(place(2.0, 0.0, -4.3, 10.0, 1.0), 78.0, 20.0), &[]),
-        prop("props/prop_watertower.glb", tilted(place(-34.0, 0.0, -62.0, 20.0, 26.0), 0.0, 3.0), &[]),
+        prop(
+            "props/prop_dumpster.glb",
+            place(2.35, 0.02, -9.0, 78.0, 4.3),
+            &[("dumpster", 2000, Sheltered)],
+            [0.75, 0.40, 0.35],
+        ),
+        prop("props/prop_sign_highway.glb", tilted(place(-5.8, 0.0, -29.0, -90.0, 11.0), 0.0, 1.5), &[], dusty),
+        prop("props/prop_lantern.glb", tilted(place(2.0, 0.0, -4.3, 10.0, 1.0), 78.0, 20.0), &[], dusty),
+        prop("props/prop_watertower.glb", tilted(place(-34.0, 0.0, -62.0, 20.0, 26.0), 0.0, 3.0), &[], dusty),
     ];
     for (index, prop) in props.into_iter().enumerate() {
         loading.props += 1;
@@ -95,12 +121,14 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
                     // A mesh hangs below the node that carries its name.
                     let Ok(parent) = meshes.get(entity) else { continue };
                     let Ok(name) = names.get(parent.parent()) else { continue };
-                    if let Some((at, (_, triangles))) =
-                        prop.painted.iter().enumerate().find(|(_, (painted, _))| *painted == name.as_str())
+                    if let Some((at, (_, triangles, wear))) =
+                        prop.painted.iter().enumerate().find(|(_, (painted, ..))| *painted == name.as_str())
                     {
-                        commands
-                            .entity(entity)
-                            .insert(Painted { triangles: *triangles, seed: seed.wrapping_add(at as u64) });
+                        commands.entity(entity).insert(Painted {
+                            triangles: *triangles,
+                            seed: seed.wrapping_add(at as u64),
+                            wear: *wear,
+                        });
                     }
                 }
             },

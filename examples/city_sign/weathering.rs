@@ -10,6 +10,16 @@ use bevy_coating::prelude::*;
 pub struct Painted {
     pub triangles: u32,
     pub seed: u64,
+    pub wear: Wear,
+}
+
+/// How a part has fared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wear {
+    /// As the command line has it.
+    Street,
+    /// A better primer, or a sheltered place: less has come off.
+    Sheltered,
 }
 
 /// Props asked for, and those in the scene already.
@@ -18,6 +28,14 @@ pub struct Loading {
     pub props: usize,
     pub loaded: usize,
 }
+
+/// Darker than the default: the low sun warms it.
+const BARE_METAL: MetalLook = MetalLook {
+    steel: Color::srgb(0.24, 0.21, 0.19),
+    rust: Color::srgb(0.36, 0.19, 0.095),
+    metallic: 0.55,
+    roughness: 0.7,
+};
 
 /// Fresh paint for everything.
 #[derive(Event)]
@@ -40,7 +58,13 @@ fn coat(
     fresh: Query<(Entity, &Painted), (Without<Coating>, With<Mesh3d>)>,
 ) {
     for (entity, painted) in &fresh {
-        let coating = Coating::new(options.preset.1.clone()).with_seed(painted.seed).with_triangles(painted.triangles);
+        let mut settings = options.preset.1.clone();
+        if painted.wear == Wear::Sheltered {
+            settings.adhesion.mean += 0.5;
+            settings.deform.bend_limit *= 0.6;
+        }
+        let coating =
+            Coating::new(settings).with_seed(painted.seed).with_triangles(painted.triangles).with_metal(BARE_METAL);
         commands.entity(entity).insert(coating);
     }
 }

@@ -82,6 +82,12 @@ fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
     }
 }
 
+/// Distance of `p` from a triangle.
+pub(super) fn distance_to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
+    let weights = nearest_weights(p, a, b, c);
+    p.distance(a * weights.x + b * weights.y + c * weights.z)
+}
+
 /// The point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
 fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
     let [a, b, c] = reference.triangles[f.index()];
