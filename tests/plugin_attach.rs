@@ -190,6 +190,20 @@ fn a_changed_coating_is_followed_at_once_or_by_a_new_film() {
 }
 
 #[test]
+fn removing_and_inserting_the_coating_starts_over() {
+    let mut app = app();
+    let plate = spawn_plate(&mut app, 6, quick_coating());
+    wait_for_films(&mut app, 1);
+    let fresh = film_state(&app, plate).digest();
+    take_steps(&mut app, 50);
+    let coating = app.world_mut().entity_mut(plate).take::<Coating>().expect("a coating");
+    app.world_mut().entity_mut(plate).insert(coating);
+    assert!(app.world().get::<FilmClock>(plate).is_none());
+    update_until(&mut app, |app| app.world().get::<FilmClock>(plate).is_some());
+    assert_eq!(film_state(&app, plate).digest(), fresh);
+}
+
+#[test]
 fn settings_can_be_an_asset() {
     let mut app = app();
     let handle = app.world().resource::<Assets<CoatingSettings>>().reserve_handle();

@@ -152,6 +152,23 @@ fn infinite_speed_is_bounded_by_budget_and_target() {
 }
 
 #[test]
+fn steps_can_be_taken_in_any_schedule() {
+    let mut app = bare_app();
+    app.add_plugins(CoatingWeatheringPlugin::new(FixedUpdate)).insert_resource(CoatingBudget::UNLIMITED);
+    app.insert_resource(Time::<Fixed>::from_hz(40.0));
+    let plate = ready_plate(&mut app, quick_coating());
+    clock(&mut app).paused = false;
+    clock(&mut app).age_per_second = 0.4;
+    let before = app.world().resource::<Time<Fixed>>().elapsed();
+    for _ in 0..20 {
+        app.update();
+    }
+    let elapsed = app.world().resource::<Time<Fixed>>().elapsed() - before;
+    assert_eq!(elapsed, Duration::from_secs(1));
+    assert_eq!(steps(&app, plate), 40, "one a tick of a fortieth of a second");
+}
+
+#[test]
 fn stages_report_their_time() {
     let mut app = app();
     app.add_plugins(bevy::diagnostic::DiagnosticsPlugin);

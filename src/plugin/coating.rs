@@ -26,7 +26,7 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 ///
 /// The prop shows its own mesh until the film has been built in the background, and gets it back when the
 /// `Coating` is removed. `rate`, `paused`, `settings` and the looks may be changed at any time; changing any other
-/// field builds the film anew.
+/// field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
