@@ -3,7 +3,7 @@
 use bevy_math::Vec3;
 
 use super::mesh::{Place, WorkMesh};
-use super::project::project;
+use super::project::{distance_to_triangle, project};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// What a collapse must respect.
@@ -164,8 +164,21 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
     least >= limits.quality || least >= mesh.quality(a).min(mesh.quality(b))
 }
 
-/// No edge at the merged vertex cuts through a bend of the surface.
+/// No edge at the merged vertex cuts through a bend of the surface, and neither end is left far behind: it may have
+/// been the tip of a bump.
 fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, limits: CollapseLimits) -> bool {
+    let gone = [Some(h.face()), mesh.topology.twin(h).map(HalfEdgeId::face)];
+    let near = |p: Vec3| {
+        [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
+            mesh.topology.ring(v).filter(|e| !gone.contains(&Some(e.face()))).any(|e| {
+                let far = [mesh.topology.target(e), mesh.topology.opposite(e)].map(|v| mesh.position(v));
+                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray
+            })
+        })
+    };
+    if !near(mesh.position(mesh.topology.origin(h))) || !near(mesh.position(mesh.topology.target(h))) {
+        return false;
+    }
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     [(a, b), (b, a)].into_iter().all(|(v, other)| {
         mesh.position(v) == position

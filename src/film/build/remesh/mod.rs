@@ -18,6 +18,8 @@ mod reference;
 mod relax;
 mod sites;
 mod split;
+#[cfg(test)]
+mod tests;
 mod topology;
 
 use rand::SeedableRng;
@@ -120,7 +122,11 @@ pub(super) fn remesh(
 }
 
 fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
-    let mut edge = length / SETTLED;
+    // A count is approached from the fine side: what the first collapses lose of a scan never comes back.
+    let mut edge = match target {
+        Target::Count(_) => length,
+        Target::Length(_) => length / SETTLED,
+    };
     for round in 0..ROUNDS {
         // Early on the mesh is still too coarse or too fine for its edges to tell bends.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };

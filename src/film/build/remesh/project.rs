@@ -82,6 +82,12 @@ fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
     }
 }
 
+/// Distance of `p` from a triangle.
+pub(super) fn distance_to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
+    let weights = nearest_weights(p, a, b, c);
+    p.distance(a * weights.x + b * weights.y + c * weights.z)
+}
+
 /// The point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
 fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
     let [a, b, c] = reference.triangles[f.index()];
@@ -120,7 +126,14 @@ fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
         let t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
         return Vec3::new(0.0, 1.0 - t, t);
     }
-    let sum = va + vb + vc;
-    let (v, w) = (vb / sum, vc / sum);
-    Vec3::new(1.0 - v - w, v, w)
+    // In double precision: the sums above lose too much on slivers.
+    let (ab, ac, ap) = (ab.as_dvec3(), ac.as_dvec3(), ap.as_dvec3());
+    let normal = ab.cross(ac);
+    let square = normal.length_squared();
+    if square <= 0.0 {
+        return Vec3::X;
+    }
+    let v = (normal.dot(ap.cross(ac)) / square).clamp(0.0, 1.0);
+    let w = (normal.dot(ab.cross(ap)) / square).clamp(0.0, 1.0 - v);
+    Vec3::new((1.0 - v - w) as f32, v as f32, w as f32)
 }
