@@ -27,7 +27,8 @@ fn age(options: &Options) -> Result<(), BakeError> {
     let stopwatch = Stopwatch::start();
     let (preset, settings) = options.preset.clone();
     let bake = BakeOptions {
-        resolution: Resolution::Triangles(options.triangles),
+        // The plate has about half of the sign's surface.
+        resolution: Resolution::Triangles(options.triangles.saturating_mul(2)),
         settings,
         preset,
         age: options.ages.iter().copied().fold(0.0, f64::max),

@@ -90,8 +90,8 @@ fn props(sign_triangles: u32) -> Vec<Prop> {
             .tinted(0.50, 0.62, 0.62)
             .shedding(150, 24, 18),
         Prop::new(DRUMS, at(-3.0, ROAD, -6.9, 12.0, 3.5))
-            .painted("containers_A", 3000, Street)
-            .tinted(0.42, 0.32, 0.25)
+            .painted("containers_A", 3000, Sheltered)
+            .tinted(0.34, 0.25, 0.20)
             .shedding(32, 84, 40),
         barrier(at(-7.6, ROAD, -6.2, 100.0, 8.0)),
         barrier(at(-3.6, ROAD, -14.5, 75.0, 8.0)),

@@ -165,14 +165,17 @@ def fittings():
     mesh = Mesh()
     back = -DEPTH / 2 + 0.001
     half = (WIDTH / 2 - RETURN * 0.5, HEIGHT / 2 - RETURN * 0.5)
+    inset = CORNER - RETURN * 0.5
     points = outline()
-    centre = mesh.vertex((0, CENTRE_Y, back), (0, 0, -1))
-    ring = [
-        mesh.vertex((cx + nx * (CORNER - RETURN * 0.5), CENTRE_Y + cy + ny * (CORNER - RETURN * 0.5), back), (0, 0, -1))
-        for cx, cy, nx, ny in points
-    ]
-    for i in range(len(ring)):
-        mesh.indices += [centre, ring[(i + 1) % len(ring)], ring[i]]
+    per = len(points) // 4
+    ring = [mesh.vertex((cx + nx * inset, CENTRE_Y + cy + ny * inset, back), (0, 0, -1)) for cx, cy, nx, ny in points]
+    corners = [mesh.vertex((cx, CENTRE_Y + cy, back), (0, 0, -1)) for cx, cy, _, _ in points[::per]]
+    for c in range(4):
+        first, following = c * per, (c + 1) % 4
+        for i in range(per - 1):
+            mesh.indices += [corners[c], ring[first + i + 1], ring[first + i]]
+        mesh.quad(corners[c], corners[following], ring[following * per], ring[first + per - 1])
+    mesh.quad(*reversed(corners))
     for rail in (-0.22, 0.22):
         y = CENTRE_Y + rail
         mesh.box((-half[0] + 0.05, y - 0.02, POST_Z + POST_RADIUS), (half[0] - 0.05, y + 0.02, back - 0.0005))

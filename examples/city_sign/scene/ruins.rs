@@ -101,6 +101,8 @@ fn raise(
         tint: building.tint,
         noise: noise.clone(),
         offset: offset + index * 9.7,
+        plan: (Vec2::ZERO, Vec2::X),
+        site: offset,
         bearings: Vec::new(),
         two_sided: near,
     };
@@ -109,18 +111,18 @@ fn raise(
         building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw))
     };
     let sides = [
-        (stand(0.0, 0.0, 0.0), width, true),
-        (stand(width, 0.0, FRAC_PI_2), depth, near),
-        (stand(0.0, -depth, -FRAC_PI_2), depth, near),
-        (stand(width, -depth, 2.0 * FRAC_PI_2), width, true),
+        (stand(0.0, 0.0, 0.0), width, true, (Vec2::ZERO, Vec2::X)),
+        (stand(width, 0.0, FRAC_PI_2), depth, near, (Vec2::new(width, 0.0), Vec2::NEG_Y)),
+        (stand(0.0, -depth, -FRAC_PI_2), depth, near, (Vec2::new(0.0, -depth), Vec2::Y)),
+        (stand(width, -depth, 2.0 * FRAC_PI_2), width, true, (Vec2::new(width, -depth), Vec2::NEG_X)),
     ];
     let mut standing = Vec::new();
-    for (index, (place, length, openings)) in sides.into_iter().enumerate() {
+    for (index, (place, length, openings, plan)) in sides.into_iter().enumerate() {
         // The far side of a distant building is behind its front.
         if !near && index >= 2 {
             break;
         }
-        let wall = wall(length, height, openings, index as f32);
+        let wall = Wall { plan, ..wall(length, height, openings, index as f32) };
         wall.build(&place, faces, edges);
         if near {
             ledges(&wall, &place, edges);
@@ -132,7 +134,8 @@ fn raise(
         return;
     }
     // A party wall and the floors, which have broken further than the walls.
-    let party = wall(depth - 0.4, height, false, 5.0);
+    let plan = (Vec2::new(width * 0.5, 0.0), Vec2::NEG_Y);
+    let party = Wall { plan, ..wall(depth - 0.4, height, false, 5.0) };
     party.build(&stand(width * 0.5, -0.2, FRAC_PI_2), faces, edges);
     for storey in 1..=building.storeys {
         let lying = Quat::from_rotation_x(-FRAC_PI_2);

@@ -26,6 +26,11 @@ pub struct Wall {
     pub two_sided: bool,
     /// Where in the noise this wall lies.
     pub offset: f32,
+    /// Start and direction in the building's plan: walls that meet in a corner have broken to the same height
+    /// there.
+    pub plan: (Vec2, Vec2),
+    /// Where in the noise the building lies.
+    pub site: f32,
     /// For a floor: points of its edge where the wall it rests on still stands. Without walls nothing carries
     /// it beyond a short cantilever.
     pub bearings: Vec<Vec2>,
@@ -38,7 +43,9 @@ impl Wall {
 
     /// Positive inside the masonry: about the distance to the nearest edge.
     pub fn solid(&self, at: Vec2) -> f32 {
-        let lost = self.ruin * (0.42 + 1.5 * self.field(at.x * 0.09, 0.0, 0.0));
+        let spot = (self.plan.0 + self.plan.1 * at.x) * 0.09;
+        let height = self.noise.get([f64::from(spot.x), f64::from(spot.y), f64::from(self.site)]) as f32;
+        let lost = self.ruin * (0.42 + 1.5 * height);
         let ragged = 0.55 * self.field(at.x * 0.8, at.y * 0.8, 7.0);
         let top = self.height * (1.0 - lost.clamp(0.0, 0.85)) - at.y + ragged;
         let ends = at.x.min(self.length - at.x);
@@ -99,6 +106,35 @@ impl Wall {
                         self.square(square, corners(i, j, 1).map(|(i, j)| value(i, j)), place, faces, edges);
                     }
                 }
+            }
+        }
+    }
+
+    /// Masonry that hangs on to nothing has fallen: what is not connected to the ground, or a floor to the walls
+    /// it rests on.
+    fn drop_islands(&self, values: &mut [f32], grid: &[Vec2], stride: usize) {
+        let rests = |at: Vec2| {
+            if self.bearings.is_empty() {
+                at.y <= 0.0
+            } else {
+                self.bearings.iter().any(|bearing| bearing.distance_squared(at) < 0.36)
+            }
+        };
+        let mut held: Vec<bool> = values.iter().zip(grid).map(|(value, at)| *value > 0.0 && rests(*at)).collect();
+        let mut open: Vec<usize> = (0..held.len()).filter(|&i| held[i]).collect();
+        while let Some(i) = open.pop() {
+            // Rows begin and end outside the wall, so stepping over a row's end meets nothing solid.
+            let neighbours = [i.wrapping_sub(1), i + 1, i.wrapping_sub(stride), i + stride];
+            for n in neighbours {
+                if values.get(n).is_some_and(|value| *value > 0.0) && !held[n] {
+                    held[n] = true;
+                    open.push(n);
+                }
+            }
+        }
+        for (value, held) in values.iter_mut().zip(held) {
+            if *value > 0.0 && !held {
+                *value = -0.05;
             }
         }
     }
