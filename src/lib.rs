@@ -1,4 +1,81 @@
-//! Paint on metal that separates, cracks, curls, flakes off and rusts while a Bevy game runs.
+//! Paint on metal that separates, cracks, curls and flakes off while a [Bevy](https://bevy.org) game runs.
+//!
+//! After A. Ishitobi, M. Nakayama, I. Fujishiro: *Visual Simulation of Crack and Bend Generation in Deteriorated Films
+//! Coated on Metal Objects: Combination of Static Fracture and Position-Based Deformation*, The Visual Computer, 2023
+//! ("VC" in these pages).
+//!
+//! # Quick start
+//!
+//! Add the plugin, and a [`Coating`](plugin::Coating) to an entity with a mesh or to the root of a scene:
+//!
+//! ```no_run
+//! use bevy::prelude::*;
+//! use bevy_coating::prelude::*;
+//!
+//! fn main() {
+//!     // In a game: DefaultPlugins.
+//!     App::new()
+//!         .add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin))
+//!         .add_plugins(CoatingWeatheringPlugin::default())
+//!         .add_systems(Startup, paint)
+//!         .add_systems(Update, sweep_up)
+//!         .run();
+//! }
+//!
+//! fn paint(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
+//!     let barrel = meshes.add(Cylinder::new(0.3, 0.9));
+//!     let coating = Coating::preset("heavy").unwrap_or_default().with_seed(7).with_start_age(0.4);
+//!     commands.spawn((Mesh3d(barrel), coating));
+//! }
+//!
+//! fn sweep_up(mut pieces: MessageReader<PieceFallen>) {
+//!     for piece in pieces.read() {
+//!         info!("{} shed a flake of {:.0} mm at {}", piece.entity, piece.size * 1e3, piece.position);
+//!     }
+//! }
+//! ```
+//!
+//! # Concepts
+//!
+//! - The **film** is the paint: a half-edge mesh of near-equal triangles over the prop's surface ([`film`]), made in the
+//!   background from any mesh ([`film::build`]). Its parts (mesh, forces, constraints) are components on the prop's entity.
+//! - **Age** is its time: 0 is fresh, 1 the end of the paper's reference run. Every rate is per unit age. A film ages in
+//!   whole steps, by default 1,000 a unit of age, and its state depends on their number alone: at any frame rate and on
+//!   any number of threads the same seed gives the same bits.
+//! - **Settings** steer the stages ([`settings`]): given in code, as a preset, or as a `.coating.ron` asset.
+//! - What is **shown** is the film, wearing the prop's own surface, and where it has come off its back in primer and the
+//!   bare metal beneath ([`shown`]).
+//!
+//! # The pipeline
+//!
+//! ```text
+//! Mesh3d + Coating --(in the background: clean, weld, remesh, age to the start age)--> film components
+//!                                                                                           |
+//! CoatingClock, CoatingBudget --> n runs of the schedule CoatingStep a frame:                v
+//!     Forces -> Separate -> Tear -> Strip -> Bend -> Rust -> Dust -> Moisture -> Report
+//!                                                                                           |
+//! PostUpdate, only for films that changed:                                                  v
+//!     the prop's Mesh3d (a mesh of its own), backs of flakes, bare metal
+//! ```
+//!
+//! [`sim::FilmState`] runs the same stages in the same order without an engine, for tools and tests.
+//!
+//! # Features
+//!
+//! | feature | default | what it adds |
+//! |---|---|---|
+//! | `render` | yes | the backs of flakes and the bare metal, in `StandardMaterial`; needs `bevy_pbr` |
+//!
+//! # Limits
+//!
+//! - Skinned and morphed meshes, alpha-blended and custom materials are refused with an error that says so
+//!   ([`plugin::CoatingFault`]); the prop keeps its mesh. Vertex attributes other than normals, both sets of texture
+//!   coordinates, tangents and colours are not carried over.
+//! - Contact is with the metal alone, and only with the plane under each vertex: on concave or intersecting surfaces film
+//!   may still cut into metal or other film.
+//! - The film takes the prop's world scale when it is built. Later changes of scale stretch what is shown, and shear (a
+//!   rotated child of an unevenly scaled parent) is taken for the nearest scale without it.
+//! - A mesh asset that is edited in place is not followed; a handle that is swapped is.
 
 #![warn(missing_docs)]
 // What a user gives must end in a typed error, never in a panic.

@@ -38,13 +38,9 @@ impl Orbit {
                 pitch: 0.10,
                 field_of_view: 0.75,
             },
-            View::Street => Self {
-                centre: Vec3::new(-1.8, 1.7, -3.0),
-                distance: 7.5,
-                yaw: 0.10,
-                pitch: 0.02,
-                field_of_view: 0.90,
-            },
+            View::Street => {
+                Self { centre: Vec3::new(-1.8, 1.7, -3.0), distance: 7.5, yaw: 0.10, pitch: 0.02, field_of_view: 0.90 }
+            }
         }
     }
 
@@ -54,12 +50,7 @@ impl Orbit {
     }
 
     pub fn projection(&self) -> Projection {
-        Projection::Perspective(PerspectiveProjection {
-            fov: self.field_of_view,
-            near: 0.02,
-            far: 400.0,
-            ..default()
-        })
+        Projection::Perspective(PerspectiveProjection { fov: self.field_of_view, near: 0.02, far: 400.0, ..default() })
     }
 }
 

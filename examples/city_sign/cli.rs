@@ -1,6 +1,7 @@
 //! The command line.
 
 use bevy::prelude::Resource;
+use bevy_coating::settings::CoatingSettings;
 use clap::{Parser, ValueEnum};
 use std::path::PathBuf;
 
@@ -19,18 +20,18 @@ pub struct Options {
     pub size: (u32, u32),
     /// Ages of the pictures: 0 is fresh paint, 1 the end of the reference run.
     #[arg(long, value_name = "AGE,..", value_delimiter = ',', default_value = "0,0.25,0.5,0.75,1", value_parser = parse_age)]
-    pub ages: Vec<f32>,
+    pub ages: Vec<f64>,
     /// What the camera looks at.
     #[arg(long, value_enum, default_value_t = View::Sign)]
     pub view: View,
     /// How the paint behaves: default, few_cracks, gentle or heavy.
-    #[arg(long, value_name = "NAME", default_value = "default")]
-    pub preset: String,
+    #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_preset)]
+    pub preset: (String, CoatingSettings),
     /// Another seed, other cracks.
     #[arg(long, default_value_t = 7)]
     pub seed: u64,
     /// Triangles of the film on the sign's plate.
-    #[arg(long, default_value_t = 9000, value_parser = clap::value_parser!(u32).range(100..=200_000))]
+    #[arg(long, default_value_t = 8000, value_parser = clap::value_parser!(u32).range(100..=200_000))]
     pub triangles: u32,
 }
 
@@ -54,9 +55,13 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-fn parse_age(text: &str) -> Result<f32, String> {
-    match text.trim().parse::<f32>() {
+fn parse_age(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
         Ok(age) if (0.0..=4.0).contains(&age) => Ok(age),
         _ => Err(format!("`{text}` is not an age from 0 to 4")),
     }
+}
+
+fn parse_preset(name: &str) -> Result<(String, CoatingSettings), String> {
+    CoatingSettings::preset(name).map(|settings| (name.to_owned(), settings)).map_err(|error| error.to_string())
 }

@@ -4,16 +4,16 @@ use crate::camera::{self, Orbit};
 use crate::cli::{Options, View};
 use crate::graphics;
 use crate::scene::sky::Sky;
-use crate::weathering::{Loading, Pace};
+use crate::weathering::Progress;
 use bevy::app::ScheduleRunnerPlugin;
 use bevy::camera::{RenderTarget, Viewport};
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
+use bevy_coating::prelude::*;
 use std::collections::VecDeque;
 use std::fs::File;
 use std::io::BufWriter;
@@ -24,31 +24,27 @@ use std::time::{Duration, Instant};
 const SUPERSAMPLING: u32 = 2;
 /// Frames between showing a state and taking its picture: meshes and pipelines reach the screen late.
 const SETTLING_FRAMES: u32 = 6;
-/// The last of them are drawn in full, the others on a corner of the canvas.
-const FULL_FRAMES: u32 = 1;
 
 pub fn add(app: &mut App, options: &Options) {
     app.add_plugins(
         DefaultPlugins
             .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
-            .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
+            .set(graphics::renderer(true))
             .set(LogPlugin { level: Level::WARN, ..default() })
             .set(graphics::assets())
             .disable::<WinitPlugin>(),
     )
     .add_plugins(ScheduleRunnerPlugin::run_loop(Duration::ZERO))
     .insert_resource(Session::new(options))
+    // Films grow as fast as they can to the age of the next picture, seconds at a time: a frame in
+    // between costs a software renderer a second.
+    .add_systems(PreStartup, |mut clock: ResMut<CoatingClock>| {
+        clock.age_per_second = 1e3;
+        clock.target_age = Some(0.0);
+    })
+    .insert_resource(CoatingBudget { max_time: Duration::from_secs(4), max_steps: 1_000 })
     .add_systems(Startup, spawn_camera)
     .add_systems(Last, run);
-}
-
-/// Without an adapter nothing can be drawn: the sign is aged all the same.
-pub fn without_graphics(options: &Options) -> AppExit {
-    println!("No graphics adapter was found, so nothing can be drawn.");
-    println!("A software renderer is enough: on Debian and Ubuntu `apt install mesa-vulkan-drivers`,");
-    println!("on Fedora `dnf install mesa-vulkan-drivers`, on Arch `pacman -S vulkan-swrast`.");
-    let _ = options;
-    AppExit::Success
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -64,10 +60,12 @@ enum Stage {
 struct Session {
     stage: Stage,
     /// Age and view of the pictures still to take, in order.
-    shots: VecDeque<(f32, View)>,
+    shots: VecDeque<(f64, View)>,
     folder: PathBuf,
     several_views: bool,
     started: Instant,
+    /// Last tenth of age told.
+    told: u32,
     failed: bool,
 }
 
@@ -81,7 +79,7 @@ impl Session {
         };
         // Paint does not grow back: the pictures are taken in order of age.
         let mut ages = options.ages.clone();
-        ages.sort_by(f32::total_cmp);
+        ages.sort_by(f64::total_cmp);
         ages.dedup();
         Self {
             stage: Stage::Loading,
@@ -89,13 +87,23 @@ impl Session {
             folder: options.output.clone(),
             several_views: views.len() > 1,
             started: Instant::now(),
+            told: 0,
             failed: false,
         }
     }
 
-    fn file(&self, age: f32, view: View) -> PathBuf {
+    fn file(&self, age: f64, view: View) -> PathBuf {
         let view = if self.several_views { format!("_{view:?}").to_lowercase() } else { String::new() };
         self.folder.join(format!("city_sign{view}_age_{age:.2}.png"))
+    }
+
+    /// Tells of every tenth that was passed on the way to the next picture.
+    fn say_age(&mut self, age: f64) {
+        let tenth = (age * 10.0) as u32;
+        if tenth > self.told {
+            self.told = tenth;
+            self.say(format_args!("age {age:.2}"));
+        }
     }
 
     fn say(&self, what: std::fmt::Arguments) {
@@ -106,35 +114,33 @@ impl Session {
 /// What is drawn while there is no picture to take: a software renderer needs seconds for a full frame, and
 /// the ageing needs the processor. (Switching the camera off instead would leave the renderer with stale
 /// material slots.)
-fn corner() -> Viewport {
-    Viewport { physical_size: UVec2::new(16, 9), ..default() }
+///
+/// Of the canvas's proportions, so that the same things are in view.
+fn corner(canvas: &UVec2) -> Viewport {
+    Viewport { physical_size: (*canvas / 40).max(UVec2::ONE), ..default() }
 }
 
+/// The picture and its size.
 #[derive(Component)]
-struct Canvas(Handle<Image>);
+struct Canvas(Handle<Image>, UVec2);
 
 fn spawn_camera(mut commands: Commands, mut images: ResMut<Assets<Image>>, sky: Res<Sky>, options: Res<Options>) {
-    let (width, height) = options.size;
-    let canvas = Image::new_target_texture(
-        width * SUPERSAMPLING,
-        height * SUPERSAMPLING,
-        TextureFormat::Rgba8UnormSrgb,
-        None,
-    );
+    let size = UVec2::from(options.size) * SUPERSAMPLING;
+    let canvas = Image::new_target_texture(size.x, size.y, TextureFormat::Rgba8UnormSrgb, None);
     let canvas = images.add(canvas);
     commands.spawn((
         camera::view(&sky, Orbit::of(options.view)),
-        Camera { viewport: Some(corner()), ..default() },
+        Camera { viewport: Some(corner(&size)), ..default() },
         RenderTarget::Image(canvas.clone().into()),
-        Canvas(canvas),
+        Canvas(canvas, size),
     ));
 }
 
 fn run(
     mut commands: Commands,
     mut session: ResMut<Session>,
-    mut pace: ResMut<Pace>,
-    loading: Res<Loading>,
+    mut clock: ResMut<CoatingClock>,
+    progress: Progress,
     mut cameras: Query<(&mut Camera, &mut Transform, &mut Projection, &Canvas)>,
     mut exit: MessageWriter<AppExit>,
 ) {
@@ -143,39 +149,34 @@ fn run(
         exit.write(if session.failed { AppExit::error() } else { AppExit::Success });
         return;
     };
-    eprintln!("DBG {:?} {:.2}", session.stage, session.started.elapsed().as_secs_f32());
     match session.stage {
         Stage::Loading => {
-            pace.goal = Some(0.0);
-            if loading.finished() && pace.films.0 == pace.films.1 {
-                session.say(format_args!("{} props loaded, {} films built", loading.props, pace.films.0));
+            if progress.is_ready() {
+                session.say(format_args!("scene loaded, {} films built", progress.films().0));
                 session.stage = Stage::Ageing;
             }
         }
         Stage::Ageing => {
-            if pace.goal != Some(age) {
-                pace.goal = Some(age);
-                pace.settled = false;
-            } else if pace.settled {
+            clock.target_age = Some(age);
+            if progress.has_reached(age) {
                 let orbit = Orbit::of(view);
                 *transform = orbit.transform();
                 *projection = orbit.projection();
-                session.say(format_args!("age {age:.2}: drawing the {} view", format!("{view:?}").to_lowercase()));
+                session.told = (age * 10.0) as u32;
+                session.say(format_args!("age {age:.2}: drawing"));
                 session.stage = Stage::Settling(SETTLING_FRAMES);
+            } else {
+                session.say_age(progress.age());
             }
         }
         Stage::Settling(0) => {
             session.stage = Stage::Shooting;
+            camera.viewport = None;
             commands.spawn(Screenshot::image(canvas.0.clone())).observe(keep);
         }
-        Stage::Settling(frames) => {
-            if frames <= FULL_FRAMES {
-                camera.viewport = None;
-            }
-            session.stage = Stage::Settling(frames - 1);
-        }
+        Stage::Settling(frames) => session.stage = Stage::Settling(frames - 1),
         // The picture was drawn at the end of the frame before; only its way back takes time.
-        Stage::Shooting => camera.viewport = Some(corner()),
+        Stage::Shooting => camera.viewport = Some(corner(&canvas.1)),
     }
 }
 

@@ -4,28 +4,36 @@ use crate::camera::{self, Orbit};
 use crate::cli::{Options, View};
 use crate::graphics;
 use crate::scene::sky::Sky;
-use crate::weathering::Pace;
+use crate::weathering::{Progress, Repaint};
 use bevy::anti_alias::fxaa::Fxaa;
 use bevy::input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseScrollUnit};
 use bevy::prelude::*;
 use bevy::window::WindowResolution;
+use bevy_coating::prelude::*;
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 
 pub fn add(app: &mut App, options: &Options) {
     let (width, height) = options.size;
-    let window = Window {
-        title: "City sign".into(),
-        resolution: WindowResolution::new(width, height),
-        ..default()
-    };
+    let window = Window { title: "City sign".into(), resolution: WindowResolution::new(width, height), ..default() };
     let window = WindowPlugin { primary_window: Some(window), ..default() };
-    app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()))
+    app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()).set(graphics::renderer(false)))
         .add_plugins(EguiPlugin::default())
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
         .add_systems(Update, (keys, orbit))
         .add_systems(EguiPrimaryContextPass, read_out);
 }
+
+const KEYS: [(&str, &str); 8] = [
+    ("Space", "pause"),
+    ("S, N", "one step"),
+    ("Up, Down", "faster, slower"),
+    ("R", "fresh paint"),
+    ("1, 2, 3", "sign, close, street"),
+    ("Drag, wheel", "turn, zoom"),
+    ("Right drag", "shift"),
+    ("H", "this list"),
+];
 
 /// Whether the list of keys is open.
 #[derive(Resource)]
@@ -41,23 +49,34 @@ fn spawn_camera(mut commands: Commands, sky: Res<Sky>, options: Res<Options>) {
     commands.spawn((camera::view(&sky, Orbit::of(options.view)), Fxaa::default()));
 }
 
+/// Age per second.
+const SLOWEST: f64 = 0.001;
+const FASTEST: f64 = 1.0;
+
+fn step(clock: &mut CoatingClock) {
+    clock.paused = true;
+    clock.request_steps(1);
+}
+
 fn keys(
     keyboard: Res<ButtonInput<KeyCode>>,
-    mut pace: ResMut<Pace>,
+    mut clock: ResMut<CoatingClock>,
+    mut commands: Commands,
     mut help: ResMut<Help>,
     mut cameras: Query<(&mut Orbit, &mut Projection)>,
     mut exit: MessageWriter<AppExit>,
 ) {
     for key in keyboard.get_just_pressed() {
         match key {
-            KeyCode::Space => pace.paused = !pace.paused,
-            KeyCode::KeyS | KeyCode::KeyN => {
-                pace.paused = true;
-                pace.step = true;
+            KeyCode::Space => clock.paused = !clock.paused,
+            KeyCode::KeyS | KeyCode::KeyN => step(&mut clock),
+            KeyCode::ArrowUp | KeyCode::Equal | KeyCode::NumpadAdd => {
+                clock.age_per_second = (clock.age_per_second * 1.5).min(FASTEST);
             }
-            KeyCode::ArrowUp | KeyCode::Equal | KeyCode::NumpadAdd => pace.speed = (pace.speed * 1.5).min(1.0),
-            KeyCode::ArrowDown | KeyCode::Minus | KeyCode::NumpadSubtract => pace.speed = (pace.speed / 1.5).max(0.001),
-            KeyCode::KeyR => pace.reset = true,
+            KeyCode::ArrowDown | KeyCode::Minus | KeyCode::NumpadSubtract => {
+                clock.age_per_second = (clock.age_per_second / 1.5).max(SLOWEST);
+            }
+            KeyCode::KeyR => commands.trigger(Repaint),
             KeyCode::KeyH => help.0 = !help.0,
             KeyCode::Escape => {
                 exit.write(AppExit::Success);
@@ -111,48 +130,44 @@ fn orbit(
     }
 }
 
-fn read_out(mut contexts: EguiContexts, mut pace: ResMut<Pace>, help: Res<Help>) -> Result {
+fn read_out(
+    mut contexts: EguiContexts,
+    mut clock: ResMut<CoatingClock>,
+    mut commands: Commands,
+    progress: Progress,
+    help: Res<Help>,
+) -> Result {
     let context = contexts.ctx_mut()?;
     egui::Window::new("Weathering").default_pos([16.0, 16.0]).resizable(false).show(context, |ui| {
-        ui.heading(format!("age {:.3}", pace.age));
-        let state = if pace.films.0 < pace.films.1 {
-            format!("building films: {} of {}", pace.films.0, pace.films.1)
-        } else if pace.paused {
+        ui.heading(format!("age {:.3}", progress.age()));
+        let (films, wanted) = progress.films();
+        ui.label(if films < wanted || wanted == 0 {
+            format!("building films: {films} of {wanted}")
+        } else if clock.paused {
             "paused".to_owned()
         } else {
-            format!("{:.3} a second", pace.speed)
-        };
-        ui.label(state);
+            format!("{:.3} a second", clock.age_per_second)
+        });
         ui.horizontal(|ui| {
-            if ui.button(if pace.paused { "Run" } else { "Pause" }).clicked() {
-                pace.paused = !pace.paused;
+            if ui.button(if clock.paused { "Run" } else { "Pause" }).clicked() {
+                clock.paused = !clock.paused;
             }
             if ui.button("Step").clicked() {
-                pace.paused = true;
-                pace.step = true;
+                step(&mut clock);
             }
             if ui.button("Reset").clicked() {
-                pace.reset = true;
+                commands.trigger(Repaint);
             }
         });
-        let mut speed = pace.speed;
-        let slider = egui::Slider::new(&mut speed, 0.001..=1.0).logarithmic(true).text("age per second");
+        let mut speed = clock.age_per_second;
+        let slider = egui::Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).text("age per second");
         if ui.add(slider).changed() {
-            pace.speed = speed;
+            clock.age_per_second = speed;
         }
         if help.0 {
             ui.separator();
             egui::Grid::new("keys").num_columns(2).show(ui, |ui| {
-                for (key, meaning) in [
-                    ("Space", "pause"),
-                    ("S, N", "one step"),
-                    ("Up, Down", "faster, slower"),
-                    ("R", "fresh paint"),
-                    ("1, 2, 3", "sign, close, street"),
-                    ("Drag, wheel", "turn, zoom"),
-                    ("Right drag", "shift"),
-                    ("H", "this list"),
-                ] {
+                for (key, meaning) in KEYS {
                     ui.monospace(key);
                     ui.label(meaning);
                     ui.end_row();

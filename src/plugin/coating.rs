@@ -26,7 +26,7 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 ///
 /// The prop shows its own mesh until the film has been built in the background, and gets it back when the
 /// `Coating` is removed. `rate`, `paused`, `settings` and the looks may be changed at any time; changing any other
-/// field builds the film anew.
+/// field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
@@ -44,7 +44,7 @@ pub struct Coating {
     pub start_age: f64,
     /// Steps per unit age. At least 1, default 1000. More is slower, not better: the result hardly depends on it.
     pub steps_per_age: u32,
-    /// Colour of the paint's back, seen where it curls. Default: a red-brown primer.
+    /// Colour of the paint's back, seen where it curls. Default: a warm grey.
     pub primer: Color,
     /// Look of the metal under the paint.
     pub metal: MetalLook,
@@ -60,7 +60,7 @@ impl Default for Coating {
             paused: false,
             start_age: 0.0,
             steps_per_age: DEFAULT_STEPS_PER_AGE,
-            primer: Color::srgb(0.40, 0.20, 0.15),
+            primer: Color::srgb(0.55, 0.52, 0.47),
             metal: MetalLook::default(),
         }
     }
@@ -186,8 +186,8 @@ pub struct MetalLook {
 impl Default for MetalLook {
     fn default() -> Self {
         Self {
-            steel: Color::srgb(0.30, 0.25, 0.22),
-            rust: Color::srgb(0.45, 0.22, 0.09),
+            steel: Color::srgb(0.24, 0.22, 0.21),
+            rust: Color::srgb(0.56, 0.27, 0.11),
             metallic: 0.6,
             roughness: 0.75,
         }

@@ -37,7 +37,8 @@ pub use schedule::{CoatingStep, CoatingSystems};
 
 use crate::CoatingSettingsPlugin;
 
-/// Ages the paint of every prop with a [`Coating`].
+/// Ages the paint of every prop with a [`Coating`]. Needs Bevy's `AssetPlugin` and its (main world's) `MeshPlugin`,
+/// which `DefaultPlugins` has, and takes time from [`Time`](bevy::time::Time).
 ///
 /// ```
 /// # use bevy::prelude::*;

@@ -31,8 +31,11 @@ pub(crate) struct FilmDisplay {
     slots: Vec<DisplaySlot>,
     /// Revision that `shown` is up to date with.
     seen: FilmRevision,
-    /// What `shown` has that the assets do not have yet.
-    pub(super) pending: Option<ShownChange>,
+    /// What the fronts' assets do not show yet.
+    pending: Option<ShownChange>,
+    /// What the assets of backs and metal do not show yet.
+    #[cfg(feature = "render")]
+    pub(super) pending_parts: Option<ShownChange>,
     #[cfg(feature = "render")]
     pub(super) parts: super::parts::PartHandles,
 }
@@ -61,6 +64,9 @@ impl FilmDisplay {
             slots: slots.into_iter().map(empty).collect(),
             seen: FilmRevision::default(),
             pending: None,
+            // A film that has been aged already has backs and metal from the first frame on.
+            #[cfg(feature = "render")]
+            pending_parts: Some(ShownChange { topology: true, exposure: true }),
             #[cfg(feature = "render")]
             parts: super::parts::PartHandles::default(),
         }
@@ -76,7 +82,6 @@ impl FilmDisplay {
             write_part(&mut mesh, part, display.attributes, self.space);
             display.mesh = Some(mesh);
         }
-        self.pending = Some(ShownChange { topology: true, exposure: true });
     }
 
     /// Makes assets of the meshes; one handle a primitive, where the film has any of it.
@@ -101,11 +106,17 @@ pub(super) fn follow_films(
             let display = display.bypass_change_detection();
             display.seen = *revision;
             let change = display.shown.update(mesh, forces);
-            let pending = display.pending.get_or_insert_default();
-            pending.topology |= change.topology;
-            pending.exposure |= change.exposure;
+            add(&mut display.pending, change);
+            #[cfg(feature = "render")]
+            add(&mut display.pending_parts, change);
         });
     });
+}
+
+fn add(pending: &mut Option<ShownChange>, change: ShownChange) {
+    let pending = pending.get_or_insert_default();
+    pending.topology |= change.topology;
+    pending.exposure |= change.exposure;
 }
 
 /// Writes the meshes of the films that changed.
@@ -117,7 +128,7 @@ pub(super) fn write_fronts(
     timings.measure(Stage::MeshGeneration, || {
         for mut display in &mut films {
             let display = display.bypass_change_detection();
-            let Some(change) = display.pending else { continue };
+            let Some(change) = display.pending.take() else { continue };
             for (slot, front) in display.slots.iter().enumerate() {
                 let Some(part) = display.shown.front(slot) else { continue };
                 let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
@@ -126,9 +137,6 @@ pub(super) fn write_fronts(
                 } else {
                     move_part(&mut mesh, part, display.space);
                 }
-            }
-            if cfg!(not(feature = "render")) {
-                display.pending = None;
             }
         }
     });

@@ -33,7 +33,7 @@ use crate::{
 };
 
 /// Size of a patch of rust on the metal, in mean film edges.
-const PATCH: f32 = 7.0;
+const PATCH: f32 = 5.0;
 
 /// Assets of a film's backs and metal.
 #[derive(Default)]
@@ -119,7 +119,7 @@ pub(super) fn write_parts(
     timings.measure(Stage::MeshGeneration, || {
         for (film, mesh, coated_by, source, transform, mut display) in &mut films {
             let display = display.bypass_change_detection();
-            let Some(change) = display.pending.take() else { continue };
+            let Some(change) = display.pending_parts.take() else { continue };
             let Ok(coating) = coatings.get(coated_by.0) else { continue };
             let space = display.space;
             let mut spawn = |name: &'static str, mesh: &Handle<Mesh>, material: &Handle<StandardMaterial>| {

@@ -10,8 +10,10 @@ use crate::{
     settings::CoatingSettings,
 };
 
-/// How far below its plane a vertex may lie, in mean edges: rounding.
+/// How far below its plane a vertex may lie, in mean edges.
 const PLANE_TOLERANCE: f32 = 1e-5;
+/// And in units of the last place of its coordinates, which count where a film is far from its origin.
+const PLANE_ROUNDING: f32 = 8.0 * f32::EPSILON;
 
 /// Stain fields of a film. The stages that fill them (rust, dust, moisture) follow bending; the film carries
 /// the component so that their place in the step is fixed.
@@ -187,7 +189,8 @@ impl FilmState {
             if forces.is_attached(v) && moved {
                 return Err(InvariantError::AttachedMoved(v));
             }
-            if geometry.height(v) < -PLANE_TOLERANCE * geometry.mean_edge {
+            let rounding = PLANE_ROUNDING * geometry.rest_positions[v.index()].abs().max_element();
+            if geometry.height(v) < -PLANE_TOLERANCE * geometry.mean_edge - rounding {
                 return Err(InvariantError::BelowPlane(v));
             }
             if forces.tip(v).is_some() && !self.is_tip(v) {

@@ -19,19 +19,19 @@ pub fn build(site: &mut Site) {
     let asphalt = site.materials.add(asphalt);
     let mut mesh = MeshBuilder::default();
     let size = site.surfaces.asphalt.size;
-    sheet(&mut mesh, Rect::new(FAR_KERB - 0.1, -34.0, KERB + 0.1, 8.0), 0.3, size, road);
+    sheet(&mut mesh, Rect::new(FAR_KERB - 0.1, -34.0, KERB + 0.1, 8.0), 0.4, size, road);
     sheet(&mut mesh, Rect::new(FAR_KERB - 0.1, -120.0, KERB + 0.1, -34.0), 2.0, size, |_, _| ROAD - 0.02);
-    site.spawn(mesh, &asphalt);
+    site.spawn_shadowless(mesh, &asphalt);
 
     let slabs = site.surfaces.pavement.material(0.8);
     let slabs = site.materials.add(slabs);
     let mut mesh = MeshBuilder::default();
     let size = site.surfaces.pavement.size;
     let pavement = move |x: f32, z: f32| 0.02 * at(x * 1.4 + 9.0, z * 1.4);
-    sheet(&mut mesh, Rect::new(KERB + 0.14, -34.0, 9.0, 8.0), 0.3, size, pavement);
+    sheet(&mut mesh, Rect::new(KERB + 0.14, -34.0, 9.0, 8.0), 0.5, size, pavement);
     sheet(&mut mesh, Rect::new(KERB + 0.14, -120.0, 9.0, -34.0), 2.0, size, |_, _| 0.0);
-    sheet(&mut mesh, Rect::new(FAR_KERB - 3.6, -120.0, FAR_KERB - 0.14, 8.0), 0.6, size, pavement);
-    site.spawn(mesh, &slabs);
+    sheet(&mut mesh, Rect::new(FAR_KERB - 3.6, -120.0, FAR_KERB - 0.14, 8.0), 1.0, size, pavement);
+    site.spawn_shadowless(mesh, &slabs);
 
     kerbs(site);
 
@@ -44,7 +44,7 @@ pub fn build(site: &mut Site) {
     });
     let mut mesh = MeshBuilder::default();
     sheet(&mut mesh, Rect::new(FAR_KERB, -30.0, KERB, 6.0), 6.0, 4.0, |_, _| ROAD - 0.062);
-    site.spawn(mesh, &water);
+    site.spawn_shadowless(mesh, &water);
 
     let dirt = site.surfaces.concrete.material(0.95);
     let dirt = site.materials.add(StandardMaterial { base_color: Color::linear_rgb(0.62, 0.52, 0.40), ..dirt });
@@ -53,7 +53,7 @@ pub fn build(site: &mut Site) {
     sheet(&mut mesh, Rect::new(-160.0, -260.0, 160.0, 60.0), 8.0, 4.0, |_, _| -0.35);
     sheet(&mut mesh, Rect::new(-40.0, -60.0, FAR_KERB - 3.5, 10.0), 1.0, 4.0, field);
     sheet(&mut mesh, Rect::new(8.9, -60.0, 40.0, 10.0), 1.0, 4.0, field);
-    site.spawn(mesh, &dirt);
+    site.spawn_shadowless(mesh, &dirt);
 }
 
 /// A height field over `area` (x and z), smooth-shaded, one vertex each `step` metres.

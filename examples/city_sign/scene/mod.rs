@@ -11,6 +11,7 @@ mod textures;
 mod tiling;
 mod walls;
 
+use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
 use builder::MeshBuilder;
 use rand::RngExt;
@@ -49,10 +50,17 @@ pub struct Site<'a, 'w, 's> {
 
 impl Site<'_, '_, '_> {
     fn spawn(&mut self, mesh: MeshBuilder, material: &Handle<StandardMaterial>) {
-        if mesh.is_empty() {
-            return;
+        if !mesh.is_empty() {
+            self.commands.spawn((Mesh3d(self.meshes.add(mesh.build())), MeshMaterial3d(material.clone())));
         }
-        self.commands.spawn((Mesh3d(self.meshes.add(mesh.build())), MeshMaterial3d(material.clone())));
+    }
+
+    /// For what is too thin or too flat to be missed in a shadow map.
+    fn spawn_shadowless(&mut self, mesh: MeshBuilder, material: &Handle<StandardMaterial>) {
+        if !mesh.is_empty() {
+            let mesh = Mesh3d(self.meshes.add(mesh.build()));
+            self.commands.spawn((mesh, MeshMaterial3d(material.clone()), NotShadowCaster));
+        }
     }
 
     /// A number between `low` and `high`.

@@ -31,15 +31,15 @@ pub fn build(site: &mut Site) {
         // At the foot of the right-hand ruin, behind the sign.
         heap(4.6, 0.0, -6.2, 3.0, 1.25, 420),
         heap(3.0, 0.0, -12.5, 2.6, 0.9, 260),
-        heap(4.5, 0.0, -20.0, 4.0, 1.8, 220),
+        heap(4.5, 0.0, -20.0, 4.0, 1.8, 160),
         // Across the street.
-        heap(-13.2, 0.0, -9.0, 3.8, 1.7, 360),
-        heap(-12.0, 0.0, -17.0, 3.0, 1.1, 220),
-        heap(-14.0, 0.0, -30.0, 5.0, 2.4, 260),
+        heap(-13.2, 0.0, -9.0, 3.8, 1.7, 300),
+        heap(-12.0, 0.0, -17.0, 3.0, 1.1, 150),
+        heap(-14.0, 0.0, -30.0, 5.0, 2.4, 130),
         // A collapse that blocks half the road further down.
-        heap(-4.0, ROAD, -38.0, 6.0, 1.8, 260),
-        heap(-11.0, ROAD, -50.0, 8.0, 4.0, 220),
-        heap(2.0, 0.0, -56.0, 9.0, 4.5, 220),
+        heap(-4.0, ROAD, -38.0, 6.0, 1.8, 130),
+        heap(-11.0, ROAD, -50.0, 8.0, 4.0, 90),
+        heap(2.0, 0.0, -56.0, 9.0, 4.5, 90),
     ];
     let material = site.surfaces.concrete.material(0.9);
     let material = site.materials.add(material);
@@ -144,7 +144,13 @@ fn chunk(site: &mut Site, mesh: &mut MeshBuilder, transform: &Transform, size: f
         direction * cuts.iter().map(cut).fold(sides, f32::min)
     };
     // Small pieces need few faces: the sides of a cube, cut finer for the large ones.
-    let steps = if size > 0.22 { 4 } else if size > 0.10 { 2 } else { 1 };
+    let steps = if size > 0.22 {
+        4
+    } else if size > 0.10 {
+        2
+    } else {
+        1
+    };
     for axis in 0..3 {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         for side in [-1.0, 1.0] {

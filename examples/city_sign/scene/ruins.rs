@@ -25,25 +25,18 @@ pub fn build(site: &mut Site) {
     let left = |z: f32| Transform::from_xyz(FAR_KERB - 3.6, -0.2, z).with_rotation(Quat::from_rotation_y(FRAC_PI_2));
     let right = |x: f32, z: f32| Transform::from_xyz(x, -0.2, z).with_rotation(Quat::from_rotation_y(-FRAC_PI_2));
     let far = |x: f32, z: f32, yaw: f32| Transform::from_xyz(x, -0.3, z).with_rotation(Quat::from_rotation_y(yaw));
-    let building = |place, width, depth, storeys, ruin, cell, tint| Building {
-        place,
-        width,
-        depth,
-        storeys,
-        ruin,
-        cell,
-        tint,
-    };
+    let building =
+        |place, width, depth, storeys, ruin, cell, tint| Building { place, width, depth, storeys, ruin, cell, tint };
     let sand = Vec3::new(1.0, 0.93, 0.82);
     let ochre = Vec3::new(1.0, 0.82, 0.60);
     let grey = Vec3::new(0.82, 0.83, 0.84);
     let buildings = [
-        building(right(5.4, -19.6), 13.0, 10.0, 3, 0.9, 0.22, sand),
-        building(right(5.0, -40.0), 16.0, 10.0, 4, 0.8, 0.3, grey),
+        building(right(5.4, -19.6), 13.0, 10.0, 3, 0.9, 0.25, sand),
+        building(right(5.0, -40.0), 16.0, 10.0, 4, 0.8, 0.4, grey),
         building(right(6.5, -62.0), 18.0, 12.0, 6, 0.5, 0.5, ochre),
         building(left(-1.0), 12.0, 9.0, 3, 0.85, 0.25, ochre),
-        building(left(-15.5), 14.0, 10.0, 4, 0.75, 0.25, sand),
-        building(left(-34.0), 15.0, 10.0, 5, 0.8, 0.35, grey),
+        building(left(-15.5), 14.0, 10.0, 4, 0.75, 0.3, sand),
+        building(left(-34.0), 15.0, 10.0, 5, 0.8, 0.44, grey),
         building(left(-53.0), 18.0, 12.0, 6, 0.55, 0.5, sand),
         // The end of the street, in the haze.
         building(far(-14.0, -92.0, 0.06), 15.0, 12.0, 10, 0.55, 0.7, grey),
@@ -68,7 +61,7 @@ pub fn build(site: &mut Site) {
         raise(site, building, index as f32 * 40.0, &mut faces, &mut edges, &mut bars);
         site.spawn(faces, &plaster);
         site.spawn(edges, &concrete);
-        site.spawn(bars, &rust);
+        site.spawn_shadowless(bars, &rust);
     }
 }
 
@@ -94,6 +87,7 @@ fn raise(
 ) {
     let (width, depth) = (building.width, building.depth);
     let height = building.storeys as f32 * STOREY + 0.5;
+    let near = building.cell < 0.45;
     let noise = Fbm::<Perlin>::new(21).set_octaves(4);
     let plaster_scale = 1.0 / site.surfaces.plaster.size;
     let wall = |length: f32, height: f32, openings: bool, index: f32| Wall {
@@ -108,10 +102,12 @@ fn raise(
         noise: noise.clone(),
         offset: offset + index * 9.7,
         bearings: Vec::new(),
+        two_sided: near,
     };
     // Front, back and the two ends; local x runs along the wall seen from outside.
-    let stand = |x: f32, z: f32, yaw: f32| building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw));
-    let near = building.cell < 0.45;
+    let stand = |x: f32, z: f32, yaw: f32| {
+        building.place * Transform::from_xyz(x, 0.0, z).with_rotation(Quat::from_rotation_y(yaw))
+    };
     let sides = [
         (stand(0.0, 0.0, 0.0), width, true),
         (stand(width, 0.0, FRAC_PI_2), depth, near),
@@ -120,6 +116,10 @@ fn raise(
     ];
     let mut standing = Vec::new();
     for (index, (place, length, openings)) in sides.into_iter().enumerate() {
+        // The far side of a distant building is behind its front.
+        if !near && index >= 2 {
+            break;
+        }
         let wall = wall(length, height, openings, index as f32);
         wall.build(&place, faces, edges);
         if near {
@@ -146,8 +146,11 @@ fn raise(
             let steps = (wall.length / 0.5) as u32;
             let points = (0..=steps).map(|i| Vec2::new(i as f32 * 0.5, level));
             // The wall must stand well above the floor, or it has fallen with it.
-            let firm = points.filter(|at| wall.solid(*at - Vec2::Y * 0.5) > 0.1 && wall.solid(*at + Vec2::Y * 0.3) > 0.0);
-            floor.bearings.extend(firm.map(|at| back.transform_point3(stand.transform_point(at.extend(0.0))).truncate()));
+            let firm =
+                points.filter(|at| wall.solid(*at - Vec2::Y * 0.5) > 0.1 && wall.solid(*at + Vec2::Y * 0.3) > 0.0);
+            floor
+                .bearings
+                .extend(firm.map(|at| back.transform_point3(stand.transform_point(at.extend(0.0))).truncate()));
         }
         if floor.bearings.is_empty() {
             continue;
@@ -199,7 +202,8 @@ fn reinforcement(site: &mut Site, wall: &Wall, place: &Transform, mesh: &mut Mes
         if y <= 0.5 || y > wall.height - 0.3 || site.between(0.0, 1.0) < 0.35 {
             continue;
         }
-        let lean = Vec3::new(site.between(-0.6, 0.6), site.between(0.2, 1.0), site.between(-0.7, 0.7)).normalize_or(Vec3::Y);
+        let lean =
+            Vec3::new(site.between(-0.6, 0.6), site.between(0.2, 1.0), site.between(-0.7, 0.7)).normalize_or(Vec3::Y);
         let length = site.between(0.3, 1.1);
         let bend = Vec3::new(site.between(-0.5, 0.5), -0.5, site.between(-0.5, 0.5));
         let root = Vec3::new(x, y - 0.15, site.between(-0.1, 0.1));

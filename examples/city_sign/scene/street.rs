@@ -75,7 +75,7 @@ fn wires(site: &mut Site) {
             .collect();
         mesh.tube(&path, 0.013, 5, Vec3::ONE);
     }
-    site.spawn(mesh, &black);
+    site.spawn_shadowless(mesh, &black);
 }
 
 /// Dry grass along the kerb, at the sign's posts and in the joints of the pavement.
@@ -99,7 +99,7 @@ fn weeds(site: &mut Site) {
             _ => Vec3::new(site.between(KERB + 0.2, 5.0), 0.0, z),
         };
         let size = site.between(0.06, 0.22);
-        for _ in 0..14 {
+        for _ in 0..10 {
             let angle = site.between(0.0, std::f32::consts::TAU);
             let out = Vec3::new(angle.cos(), 0.0, angle.sin());
             let across = Vec3::new(-out.z, 0.0, out.x) * size * 0.025;
@@ -110,9 +110,14 @@ fn weeds(site: &mut Site) {
             let corner = |p: Vec3, dark: f32| Corner::new(p, Vec2::ZERO, shade * dark);
             let middle = root + Vec3::Y * height * 0.6 + bent * 0.35;
             let tip = root + Vec3::Y * height + bent;
-            mesh.polygon(&[corner(root - across, 0.5), corner(root + across, 0.5), corner(middle + across, 0.9), corner(middle - across, 0.9)]);
+            mesh.polygon(&[
+                corner(root - across, 0.5),
+                corner(root + across, 0.5),
+                corner(middle + across, 0.9),
+                corner(middle - across, 0.9),
+            ]);
             mesh.polygon(&[corner(middle - across, 0.9), corner(middle + across, 0.9), corner(tip, 1.1)]);
         }
     }
-    site.spawn(mesh, &grass);
+    site.spawn_shadowless(mesh, &grass);
 }

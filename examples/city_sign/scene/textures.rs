@@ -52,7 +52,9 @@ impl Surfaces {
                 scope.spawn(|| draw(512, 5.0, plaster)),
                 scope.spawn(|| draw(512, 2.0, concrete)),
             ]
-            .map(|thread| thread.join().unwrap_or_else(|_| draw(1, 1.0, |_| Texel { colour: Vec3::splat(0.3), height: 0.0 })))
+            .map(|thread| {
+                thread.join().unwrap_or_else(|_| draw(1, 1.0, |_| Texel { colour: Vec3::splat(0.3), height: 0.0 }))
+            })
         });
         let mut add = |(colour, normals, size): (Image, Image, f32)| Surface {
             colour: images.add(colour),
@@ -76,8 +78,8 @@ fn asphalt(at: Vec2) -> Texel {
     let warp = Vec2::new(fractal(at, 8, 4, 4), fractal(at, 8, 4, 5)) * 0.02;
     // Long cracks that fade out, and crazing where the surface is worn most.
     let wide = crack_distance(at + warp * 1.5, 3, 6) + smooth(-0.05, 0.3, fractal(at, 4, 3, 38)) * 0.2;
-    let fine = crack_distance(at + warp * 0.6, 13, 7) + smooth(-0.35, -0.1, worn) * 0.6;
-    let crack = (1.0 - smooth(0.004, 0.018, wide)).max((1.0 - smooth(0.02, 0.07, fine)) * 0.8);
+    let fine = crack_distance(at + warp * 0.6, 13, 7) + smooth(-0.42, -0.22, worn) * 0.6;
+    let crack = (1.0 - smooth(0.003, 0.014, wide)).max((1.0 - smooth(0.02, 0.07, fine)) * 0.8);
     let colour = Vec3::splat(0.085) * (1.0 + 0.35 * grain + 0.35 * worn);
     let dusty = smooth(-0.25, 0.7, fractal(at, 3, 5, 8) + 0.25 * grain) * 0.7;
     let colour = colour.lerp(DUST * (0.9 + 0.2 * grain), dusty);
@@ -99,8 +101,8 @@ fn pavement(at: Vec2) -> Texel {
     let worn = fractal(at, 6, 5, 13);
     let warp = Vec2::new(fractal(at, 9, 3, 14), fractal(at, 9, 3, 15)) * 0.03;
     // Some slabs only are cracked.
-    let broken = crack_distance(at + warp, 6, 16) + if cell(slab, 64, 17) > 0.3 { 1.0 } else { 0.0 };
-    let crack = 1.0 - smooth(0.006, 0.025, broken);
+    let broken = crack_distance(at + warp, 6, 16) + if cell(slab, 64, 17) > 0.16 { 1.0 } else { 0.0 };
+    let crack = 1.0 - smooth(0.003, 0.016, broken);
     let colour = Vec3::new(0.30, 0.285, 0.26) * (0.75 + 0.35 * tone + 0.16 * worn + 0.12 * grain);
     let dirt = smooth(0.05, 0.8, fractal(at, 4, 5, 18) + 0.3 * joint);
     let colour = colour.lerp(DUST * 0.7, dirt * 0.6).lerp(Vec3::new(0.06, 0.05, 0.035), joint.max(crack) * 0.85);

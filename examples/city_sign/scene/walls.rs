@@ -22,6 +22,8 @@ pub struct Wall {
     pub uv_scale: f32,
     pub tint: Vec3,
     pub noise: Fbm<Perlin>,
+    /// Whether its back can be seen.
+    pub two_sided: bool,
     /// Where in the noise this wall lies.
     pub offset: f32,
     /// For a floor: points of its edge where the wall it rests on still stands. Without walls nothing carries
@@ -76,8 +78,7 @@ impl Wall {
         let rows = (self.height / self.cell).ceil() as i32 + 3;
         let at = |i: i32, j: i32| Vec2::new(i as f32 - 0.5, j as f32 - 1.0) * self.cell;
         let stride = columns as usize + 1;
-        let values: Vec<f32> =
-            (0..=rows).flat_map(|j| (0..=columns).map(move |i| self.solid(at(i, j)))).collect();
+        let values: Vec<f32> = (0..=rows).flat_map(|j| (0..=columns).map(move |i| self.solid(at(i, j)))).collect();
         let value = |i: i32, j: i32| values[j as usize * stride + i as usize];
         let corners = |i: i32, j: i32, span: i32| [(i, j), (i + span, j), (i + span, j + span), (i, j + span)];
         let whole = |i: i32, j: i32| {
@@ -145,8 +146,10 @@ impl Wall {
         };
         let front: Vec<Corner> = outline.iter().map(|p| corner(*p, half, 1.0)).collect();
         faces.polygon(&front);
-        let back: Vec<Corner> = outline.iter().rev().map(|p| corner(*p, -half, 0.8)).collect();
-        faces.polygon(&back);
+        if self.two_sided {
+            let back: Vec<Corner> = outline.iter().rev().map(|p| corner(*p, -half, 0.8)).collect();
+            faces.polygon(&back);
+        }
         for (from, to) in cuts {
             let side = |p: Vec2, z: f32| {
                 let along = p.x + p.y;
