@@ -20,11 +20,6 @@ pub(super) fn finish(mesh: &WorkMesh, surface: &Surface, clean: &CleanSurface) -
         let triangle = mesh.topology.corners(f).map(|v| number(&mut film, v));
         film.triangles.push(triangle);
         let feet = f.half_edges().map(|h| mesh.corner(h));
-        let patch = mesh.patches[f.index()];
-        debug_assert!(
-            feet.iter().all(|foot| mesh.reference.patches[foot.triangle.index()] == patch),
-            "face {f:?} leaves its patch"
-        );
         film.sites.extend(feet.iter().map(|foot| site(clean, foot)));
         // Slots and turned winding are the same over a patch: any corner tells.
         let triangle = feet[0].triangle.index();
