@@ -11,23 +11,30 @@
 //! a fresh film looks exactly like the prop that it was made of. The same arrays serve the plugin's meshes and baked
 //! models.
 
+mod backs;
 mod corners;
+mod metal;
 mod normals;
 mod part;
+mod sides;
 #[cfg(test)]
 mod tests;
 mod wedges;
-
-use bevy_math::Vec3;
 
 pub use corners::CornerAttributes;
 pub use part::ShownPart;
 
 use crate::{
-    film::{FaceId, FilmMesh, HalfEdgeId, Topology, build::BuiltFilm, build::Surface},
+    film::{
+        FilmMesh, HalfEdgeId, Topology,
+        build::{BuiltFilm, Surface},
+    },
     fracture::FilmForces,
 };
+use backs::Backs;
+use metal::Metal;
 use normals::CornerFrames;
+use sides::Sides;
 use wedges::Wedges;
 
 /// Thickness of the paint, in mean edges: how far a flake's back lies behind its front.
@@ -50,13 +57,12 @@ pub struct ShownChange {
 #[derive(Clone, Debug)]
 pub struct ShownFilm {
     attributes: CornerAttributes,
-    slots: Vec<u32>,
-    flipped: Vec<bool>,
+    sides: Sides,
     frames: CornerFrames,
     wedges: Wedges,
     fronts: Vec<ShownPart>,
-    backs: ShownPart,
-    metal: ShownPart,
+    backs: Backs,
+    metal: Metal,
     seen: Option<Seen>,
 }
 
@@ -73,21 +79,15 @@ impl ShownFilm {
     /// The shown parts of the film of `built`, which was made of `surface`, in the state of `mesh` and `forces`.
     pub fn new(built: &BuiltFilm, surface: &Surface, mesh: &FilmMesh, forces: &FilmForces) -> Self {
         let attributes = CornerAttributes::sample(built, surface, mesh);
-        let faces = mesh.topology.face_count();
-        let mut slots = built.slots.clone();
-        slots.resize(faces, 0);
-        let mut flipped = built.flipped.clone();
-        flipped.resize(faces, false);
-        let slot_count = slots.iter().max().map_or(0, |&slot| slot as usize + 1);
+        let sides = Sides::new(built, mesh.topology.face_count());
         let mut shown = Self {
             frames: CornerFrames::new(mesh),
-            wedges: Wedges::new(mesh, &attributes, &slots),
+            wedges: Wedges::new(mesh, &attributes, &sides),
+            fronts: vec![ShownPart::default(); sides.slot_count()],
             attributes,
-            slots,
-            flipped,
-            fronts: vec![ShownPart::default(); slot_count],
-            backs: ShownPart::default(),
-            metal: ShownPart::default(),
+            sides,
+            backs: Backs::default(),
+            metal: Metal::default(),
             seen: None,
         };
         shown.update(mesh, forces);
@@ -106,12 +106,12 @@ impl ShownFilm {
 
     /// The backs of the flakes of all slots: positions and normals only.
     pub fn backs(&self) -> &ShownPart {
-        &self.backs
+        &self.backs.part
     }
 
     /// The bare metal of all slots, with first texture coordinates where the prop has some.
     pub fn metal(&self) -> &ShownPart {
-        &self.metal
+        &self.metal.part
     }
 
     /// Brings the parts up to date with the film.
@@ -130,26 +130,21 @@ impl ShownFilm {
             self.seen.is_none_or(|old| (old.removed, old.separated) != (seen.removed, seen.separated));
         self.seen = Some(seen);
         if topology_changed {
-            self.wedges.renew(topology, &self.slots);
+            self.wedges.renew(topology, &self.sides);
             self.write_front_attributes();
             self.write_front_indices(topology);
         }
         self.frames.turn_faces(mesh);
         self.write_front_frames(mesh);
         if topology_changed || exposure_changed {
-            self.write_back_indices(topology, forces);
+            self.backs.renew(topology, forces, &self.sides, &self.wedges);
         }
-        self.write_back_frames(mesh.geometry.mean_edge * FILM_THICKNESS);
+        self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
         if exposure_changed {
-            self.write_metal(mesh, forces);
+            let depth = mesh.geometry.mean_edge * METAL_DEPTH;
+            self.metal.renew(mesh, forces, &self.sides, &self.wedges, &self.attributes, depth);
         }
         ShownChange { topology: topology_changed, exposure: exposure_changed }
-    }
-
-    /// The corners of a face in the order in which it is shown: that of the prop's own triangle.
-    fn shown_corners(&self, f: FaceId) -> [HalfEdgeId; 3] {
-        let [a, b, c] = f.half_edges();
-        if self.flipped[f.index()] { [a, c, b] } else { [a, b, c] }
     }
 
     fn write_front_attributes(&mut self) {
@@ -170,8 +165,8 @@ impl ShownFilm {
             part.indices.clear();
         }
         for f in topology.live_faces() {
-            let corners = self.shown_corners(f).map(|h| self.wedges.vertex_of(h));
-            if let Some(part) = self.fronts.get_mut(self.slots[f.index()] as usize) {
+            let corners = self.sides.corners(f).map(|h| self.wedges.vertex_of(h));
+            if let Some(part) = self.fronts.get_mut(self.sides.slot(f)) {
                 part.indices.extend(corners);
             }
         }
@@ -190,73 +185,6 @@ impl ShownFilm {
             }
         }
     }
-
-    fn write_back_indices(&mut self, topology: &Topology, forces: &FilmForces) {
-        self.backs.indices.clear();
-        self.wedges.backs.clear();
-        self.wedges.back_of.clear();
-        self.wedges.back_of.resize(topology.half_edge_count(), u32::MAX);
-        for f in topology.live_faces().filter(|&f| has_separated(topology, forces, f)) {
-            let [a, b, c] = self.shown_corners(f);
-            for h in [a, c, b] {
-                // One back vertex for each front vertex, found through the corner that stands for it.
-                let slot = self.slots[f.index()] as usize;
-                let front = self.wedges.vertex_of(h);
-                let stands = self.wedges.corners(slot)[front as usize];
-                let back = &mut self.wedges.back_of[stands.index()];
-                if *back == u32::MAX {
-                    *back = self.wedges.backs.len() as u32;
-                    self.wedges.backs.push((slot as u32, front));
-                }
-                self.backs.indices.push(*back);
-            }
-        }
-        self.backs.positions.resize(self.wedges.backs.len(), [0.0; 3]);
-        self.backs.normals.resize(self.wedges.backs.len(), [0.0; 3]);
-    }
-
-    fn write_back_frames(&mut self, thickness: f32) {
-        for (i, &(slot, front)) in self.wedges.backs.iter().enumerate() {
-            let part = &self.fronts[slot as usize];
-            let normal = Vec3::from_array(part.normals[front as usize]);
-            let position = Vec3::from_array(part.positions[front as usize]);
-            self.backs.positions[i] = (position - normal * thickness).to_array();
-            self.backs.normals[i] = (-normal).to_array();
-        }
-    }
-
-    fn write_metal(&mut self, mesh: &FilmMesh, forces: &FilmForces) {
-        let (topology, geometry) = (&mesh.topology, &mesh.geometry);
-        let depth = geometry.mean_edge * METAL_DEPTH;
-        self.metal.clear();
-        self.wedges.metal_of.clear();
-        self.wedges.metal_of.resize(self.wedges.rest_count(), u32::MAX);
-        for f in topology.all_faces() {
-            if topology.is_live(f) && !has_separated(topology, forces, f) {
-                continue;
-            }
-            for h in self.shown_corners(f) {
-                let index = &mut self.wedges.metal_of[self.wedges.rest[h.index()] as usize];
-                if *index == u32::MAX {
-                    *index = self.metal.positions.len() as u32;
-                    let v = topology.original(topology.origin(h)).index();
-                    let inwards = if self.flipped[f.index()] { depth } else { -depth };
-                    let position = geometry.rest_positions[v] + geometry.rest_normals[v] * inwards;
-                    self.metal.positions.push(position.to_array());
-                    self.metal.normals.push(self.attributes.normals[h.index()].to_array());
-                    if let Some(uv) = self.attributes.uvs.get(h.index()) {
-                        self.metal.uvs.push(uv.to_array());
-                    }
-                }
-                self.metal.indices.push(*index);
-            }
-        }
-    }
-}
-
-/// Whether any vertex of `f` has separated.
-fn has_separated(topology: &Topology, forces: &FilmForces, f: FaceId) -> bool {
-    topology.corners(f).iter().any(|&v| !forces.is_attached(v))
 }
 
 /// Rewrites `to` with the attribute at each of `corners`; empties it if the prop does not have the attribute.

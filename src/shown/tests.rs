@@ -2,7 +2,7 @@
 
 use bevy_math::{Vec2, Vec3};
 
-use super::*;
+use super::{sides::has_separated, *};
 use crate::{film::build::sample, settings::CoatingSettings, sim::FilmState};
 
 fn aged(age: f64) -> (FilmState, ShownFilm, Surface) {

@@ -1,6 +1,6 @@
 //! Wedges: corners at one vertex with the same attributes are one vertex of the shown mesh.
 
-use super::CornerAttributes;
+use super::{CornerAttributes, sides::Sides};
 use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
 /// Attributes closer than this are the same. Far below what shows; above the rounding of interpolation.
@@ -10,23 +10,17 @@ const SAME: f32 = 1e-4;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wedges {
     /// Wedge of each corner at rest; corners of different vertices, slots or attributes differ.
-    pub rest: Vec<u32>,
+    rest: Vec<u32>,
     /// Vertex of each corner now, in the front part of its slot.
     now: Vec<u32>,
     /// For each slot the corners that stand for its vertices.
     corners: Vec<Vec<HalfEdgeId>>,
-    /// Slot and front vertex of each vertex of the backs.
-    pub backs: Vec<(u32, u32)>,
-    /// Back vertex of each corner that stands for a front vertex.
-    pub back_of: Vec<u32>,
-    /// Metal vertex of each wedge at rest.
-    pub metal_of: Vec<u32>,
     rest_count: usize,
 }
 
 impl Wedges {
     /// Finds the wedges of a film. `mesh` may have torn since it was at rest.
-    pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes, slots: &[u32]) -> Self {
+    pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes, sides: &Sides) -> Self {
         let topology = &mesh.topology;
         let mut by_vertex: Vec<HalfEdgeId> = topology.all_half_edges().collect();
         by_vertex.sort_unstable_by_key(|&h| (topology.original(topology.origin(h)), h));
@@ -36,7 +30,7 @@ impl Wedges {
             by_vertex.chunk_by(|&a, &b| topology.original(topology.origin(a)) == topology.original(topology.origin(b)))
         {
             for (i, &h) in group.iter().enumerate() {
-                let slot = |h: HalfEdgeId| slots[h.face().index()];
+                let slot = |h: HalfEdgeId| sides.slot(h.face());
                 let same = group[..i].iter().find(|&&g| slot(g) == slot(h) && attributes.same(g, h));
                 rest[h.index()] = same.map_or(count, |g| rest[g.index()]);
                 count += u32::from(same.is_none());
@@ -45,16 +39,20 @@ impl Wedges {
         Self { rest, rest_count: count as usize, ..Self::default() }
     }
 
+    /// The wedge of `h` at rest.
+    pub fn at_rest(&self, h: HalfEdgeId) -> u32 {
+        self.rest[h.index()]
+    }
+
     /// Number of wedges at rest.
     pub fn rest_count(&self) -> usize {
         self.rest_count
     }
 
     /// Gives every wedge of every live vertex a vertex of its slot, in the order of vertices and of their fans.
-    pub fn renew(&mut self, topology: &Topology, slots: &[u32]) {
+    pub fn renew(&mut self, topology: &Topology, sides: &Sides) {
         let Self { rest, now, corners, .. } = self;
-        let slot_count = slots.iter().max().map_or(0, |&slot| slot as usize + 1);
-        corners.resize(slot_count, Vec::new());
+        corners.resize(sides.slot_count(), Vec::new());
         corners.iter_mut().for_each(Vec::clear);
         now.clear();
         now.resize(topology.half_edge_count(), u32::MAX);
@@ -64,7 +62,7 @@ impl Wedges {
                 now[h.index()] = if let Some(g) = same {
                     now[g.index()]
                 } else {
-                    let corners = &mut corners[slots[h.face().index()] as usize];
+                    let corners = &mut corners[sides.slot(h.face())];
                     corners.push(h);
                     corners.len() as u32 - 1
                 };

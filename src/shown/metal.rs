@@ -1,0 +1,56 @@
+//! Bare metal: the film at rest where it has separated or is gone, pushed under itself.
+
+use super::{
+    CornerAttributes, ShownPart,
+    sides::{Sides, has_separated},
+    wedges::Wedges,
+};
+use crate::{film::FilmMesh, fracture::FilmForces};
+
+/// No vertex yet, in the lookup.
+const NONE: u32 = u32::MAX;
+
+/// The metal of all slots.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Metal {
+    pub part: ShownPart,
+    /// Vertex of each wedge at rest.
+    of_wedge: Vec<u32>,
+}
+
+impl Metal {
+    /// Finds the exposed faces anew. `depth` is how far the metal lies under the film.
+    pub fn renew(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        sides: &Sides,
+        wedges: &Wedges,
+        attributes: &CornerAttributes,
+        depth: f32,
+    ) {
+        let Self { part, of_wedge } = self;
+        let (topology, geometry) = (&mesh.topology, &mesh.geometry);
+        part.clear();
+        of_wedge.clear();
+        of_wedge.resize(wedges.rest_count(), NONE);
+        for f in topology.all_faces() {
+            if topology.is_live(f) && !has_separated(topology, forces, f) {
+                continue;
+            }
+            for h in sides.corners(f) {
+                let vertex = &mut of_wedge[wedges.at_rest(h) as usize];
+                if *vertex == NONE {
+                    *vertex = part.positions.len() as u32;
+                    let v = topology.original(topology.origin(h)).index();
+                    let outwards = if sides.is_flipped(f) { depth } else { -depth };
+                    let position = geometry.rest_positions[v] + geometry.rest_normals[v] * outwards;
+                    part.positions.push(position.to_array());
+                    part.normals.push(attributes.normals[h.index()].to_array());
+                    part.uvs.extend(attributes.uvs.get(h.index()).map(|uv| uv.to_array()));
+                }
+                part.indices.push(*vertex);
+            }
+        }
+    }
+}
