@@ -85,7 +85,9 @@ impl Wall {
         let rows = (self.height / self.cell).ceil() as i32 + 3;
         let at = |i: i32, j: i32| Vec2::new(i as f32 - 0.5, j as f32 - 1.0) * self.cell;
         let stride = columns as usize + 1;
-        let values: Vec<f32> = (0..=rows).flat_map(|j| (0..=columns).map(move |i| self.solid(at(i, j)))).collect();
+        let grid: Vec<Vec2> = (0..=rows).flat_map(|j| (0..=columns).map(move |i| at(i, j))).collect();
+        let mut values: Vec<f32> = grid.iter().map(|at| self.solid(*at)).collect();
+        self.drop_islands(&mut values, &grid, stride);
         let value = |i: i32, j: i32| values[j as usize * stride + i as usize];
         let corners = |i: i32, j: i32, span: i32| [(i, j), (i + span, j), (i + span, j + span), (i, j + span)];
         let whole = |i: i32, j: i32| {
