@@ -25,13 +25,13 @@ pub struct CoatingClock {
     /// Age at which films stop, also for requested steps; films that are older stay as they are. `None` (the
     /// default): they go on, beyond age 1 too.
     pub target_age: Option<f64>,
-    /// Steps requested since the last frame.
-    pub(super) requested: u64,
+    /// Steps [requested](Self::request_steps) since the last frame, which hands them to the films. Default 0.
+    pub requested_steps: u64,
 }
 
 impl Default for CoatingClock {
     fn default() -> Self {
-        Self { age_per_second: DEFAULT_AGE_PER_SECOND, paused: false, target_age: None, requested: 0 }
+        Self { age_per_second: DEFAULT_AGE_PER_SECOND, paused: false, target_age: None, requested_steps: 0 }
     }
 }
 
@@ -39,7 +39,7 @@ impl CoatingClock {
     /// Has every film that is ready take `steps` steps more, paused or not, spread over as many frames as the
     /// budget takes.
     pub fn request_steps(&mut self, steps: u64) {
-        self.requested = self.requested.saturating_add(steps);
+        self.requested_steps = self.requested_steps.saturating_add(steps);
     }
 }
 

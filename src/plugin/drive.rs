@@ -66,7 +66,7 @@ fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &G
         let mut clock = world.resource_mut::<CoatingClock>();
         let clock = clock.bypass_change_detection();
         let age = if clock.paused { 0.0 } else { clock.age_per_second * seconds };
-        (age, clock.target_age, std::mem::take(&mut clock.requested))
+        (age, clock.target_age, std::mem::take(&mut clock.requested_steps))
     };
     let mut rounds = 0;
     for (mut pace, clock, transform) in films.iter_mut(world) {
