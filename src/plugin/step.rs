@@ -58,52 +58,54 @@ pub(super) fn separate(
     });
 }
 
+/// What the stages that edit the film work on.
+type Edited<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static FilmPace,
+        &'static mut FilmMesh,
+        &'static mut FilmForces,
+        &'static mut FilmChanges,
+        &'static mut StepScratch,
+    ),
+>;
+
 /// [`stage::tear`].
-pub(super) fn tear(
-    mut films: Query<(&FilmPace, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch)>,
-    mut timings: ResMut<CoatingTimings>,
-) {
-    timings.measure(Stage::Fracture, || {
-        films.par_iter_mut().for_each(|(pace, mut mesh, mut forces, mut changes, mut scratch)| {
-            if pace.due {
-                let inner = changes.bypass_change_detection();
-                stage::tear(
-                    mesh.bypass_change_detection(),
-                    forces.bypass_change_detection(),
-                    inner,
-                    &pace.settings,
-                    pace.gravity,
-                    &mut scratch.bypass_change_detection().tear,
-                );
-                if !inner.torn.is_empty() {
-                    mesh.set_changed();
-                    changes.set_changed();
-                }
-            }
-        });
+pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
+    edit(films, timings, |pace, mesh, forces, changes, scratch| {
+        stage::tear(mesh, forces, changes, &pace.settings, pace.gravity, &mut scratch.tear);
+        !changes.torn.is_empty()
     });
 }
 
 /// [`stage::strip`].
-pub(super) fn strip(
-    mut films: Query<(&FilmPace, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch)>,
+pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
+    edit(films, timings, |pace, mesh, forces, changes, scratch| {
+        stage::strip(mesh, forces, changes, &pace.settings, &mut scratch.pieces);
+        !changes.removed.is_empty()
+    });
+}
+
+/// Runs a stage that edits the due films; it answers whether it did.
+fn edit(
+    mut films: Edited,
     mut timings: ResMut<CoatingTimings>,
+    stage: impl Fn(&FilmPace, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch) -> bool + Sync,
 ) {
     timings.measure(Stage::Fracture, || {
         films.par_iter_mut().for_each(|(pace, mut mesh, mut forces, mut changes, mut scratch)| {
-            if pace.due {
-                let inner = changes.bypass_change_detection();
-                stage::strip(
+            if pace.due
+                && stage(
+                    pace,
                     mesh.bypass_change_detection(),
                     forces.bypass_change_detection(),
-                    inner,
-                    &pace.settings,
-                    &mut scratch.bypass_change_detection().pieces,
-                );
-                if !inner.removed.is_empty() {
-                    mesh.set_changed();
-                    changes.set_changed();
-                }
+                    changes.bypass_change_detection(),
+                    scratch.bypass_change_detection(),
+                )
+            {
+                mesh.set_changed();
+                changes.set_changed();
             }
         });
     });
