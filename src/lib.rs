@@ -91,5 +91,6 @@ pub mod settings;
 mod settings_asset;
 pub mod shown;
 pub mod sim;
+pub mod stain;
 
 pub use settings_asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};

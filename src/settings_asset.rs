@@ -10,8 +10,8 @@ use bevy::{
 };
 
 use crate::settings::{
-    AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, SettingsError, StrippingSettings,
-    TearingSettings, with_stages,
+    AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
+    SettingsError, StrippingSettings, TearingSettings, with_stages,
 };
 
 /// Makes [`CoatingSettings`] an asset that is loaded from `*.coating.ron` files and can be reflected.

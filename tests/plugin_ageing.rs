@@ -15,6 +15,7 @@ use bevy_coating::{
     film::build::{Surface, build},
     prelude::*,
     sim::FilmState,
+    stain::Environment,
 };
 use common::*;
 
@@ -44,7 +45,7 @@ fn a_plate_ages_in_an_app_to_the_bits_of_the_simulation() {
     assert_eq!(film_state(&app, plate).digest(), expected.digest(), "fresh");
     take_steps(&mut app, 60);
     take_steps(&mut app, 40);
-    expected.age_to(1.0, &settings, Vec3::NEG_Y);
+    expected.age_to(1.0, &settings, &Environment::default());
     let aged = film_state(&app, plate);
     assert_eq!(aged.clock.steps, 100);
     assert_eq!(aged.digest(), expected.digest());
@@ -156,7 +157,7 @@ fn instances_of_one_mesh_age_apart() {
 fn the_start_age_is_reached_in_the_background() {
     let coating = quick_coating().with_seed(2).with_start_age(0.6);
     let (mut expected, settings) = reference(12, &coating);
-    expected.age_to(0.6, &settings, Vec3::NEG_Y);
+    expected.age_to(0.6, &settings, &Environment::default());
     let mut app = app();
     let plate = spawn_plate(&mut app, 12, coating);
     wait_for_films(&mut app, 1);
@@ -166,7 +167,7 @@ fn the_start_age_is_reached_in_the_background() {
     assert_eq!(ready.len(), 1);
     assert_eq!((ready[0].entity, ready[0].root, ready[0].triangles), (plate, plate, 288));
     take_steps(&mut app, 10);
-    expected.age_to(0.7, &settings, Vec3::NEG_Y);
+    expected.age_to(0.7, &settings, &Environment::default());
     assert_eq!(film_state(&app, plate).digest(), expected.digest(), "and goes on from there");
 }
 

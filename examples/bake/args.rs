@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use bevy_coating::settings::CoatingSettings;
+use bevy_coating::{settings::CoatingSettings, stain::Environment};
 use bevy_math::{DVec3, Vec3};
 use clap::{
     CommandFactory, Parser,
@@ -117,7 +117,7 @@ impl Args {
             age: self.age,
             steps: self.steps,
             seed: self.seed,
-            gravity: self.gravity,
+            environment: Environment::still(self.gravity),
         })
     }
 }

@@ -5,8 +5,8 @@ use std::time::Instant;
 use bevy_coating::{
     settings::CoatingSettings,
     sim::{FilmMeasures, FilmState, StageTimes},
+    stain::Environment,
 };
-use bevy_math::Vec3;
 
 use super::{
     BakeError, MaterialLibrary, Model, Resolution, Stats, parallel,
@@ -30,8 +30,8 @@ pub struct BakeOptions {
     pub steps: u32,
     /// Seed of films and forces.
     pub seed: u64,
-    /// Unit vector in scene space.
-    pub gravity: Vec3,
+    /// Gravity and weather in scene space.
+    pub environment: Environment,
 }
 
 impl Default for BakeOptions {
@@ -43,7 +43,7 @@ impl Default for BakeOptions {
             age: 1.0,
             steps: 1000,
             seed: 0,
-            gravity: Vec3::NEG_Y,
+            environment: Environment::default(),
         }
     }
 }
@@ -159,7 +159,7 @@ fn age(
         parallel::for_each(&mut runs, |(film, times)| {
             let work = film.mesh.topology.face_count() as u64;
             while film.clock.steps < step {
-                film.step_timed(&options.settings, options.gravity, times);
+                film.step_timed(&options.settings, &options.environment, times);
                 progress.advance(work);
             }
         });

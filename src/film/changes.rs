@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{FaceId, HalfEdgeId, VertexId};
+use super::{FaceId, HalfEdgeId, TearEnd, VertexId};
 
 /// A piece of film that fell in this step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub struct FilmChanges {
     pub separated: Vec<VertexId>,
     /// One half-edge of each edge that tore.
     pub torn: Vec<HalfEdgeId>,
+    /// What each of these tears did at the origin and the target of its half-edge.
+    pub torn_ends: Vec<[TearEnd; 2]>,
     /// Vertices that tearing appended.
     pub duplicates: Vec<VertexId>,
     /// Faces that were stripped or fell.
@@ -39,6 +41,7 @@ impl FilmChanges {
     pub fn clear(&mut self) {
         self.separated.clear();
         self.torn.clear();
+        self.torn_ends.clear();
         self.duplicates.clear();
         self.removed.clear();
         self.debris.clear();

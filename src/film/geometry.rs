@@ -91,6 +91,12 @@ impl Geometry {
         (a + b + c) / 3.0
     }
 
+    /// Area of `f` at rest.
+    pub fn rest_area_of(&self, topology: &Topology, f: FaceId) -> f32 {
+        let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[topology.original(v).index()]);
+        (b - a).cross(c - a).length() * 0.5
+    }
+
     /// Height of `v` over the plane of its rest position, in the film's space; negative is below.
     #[inline]
     pub fn height(&self, v: VertexId) -> f32 {

@@ -117,4 +117,5 @@ fn tear_edge(
     }
     forces.torn_edges += 1;
     changes.torn.push(edge);
+    changes.torn_ends.push(ends);
 }

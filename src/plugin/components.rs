@@ -21,7 +21,8 @@ use crate::{
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
     settings::CoatingSettings,
-    sim::{FilmClock, StainFields, StepScratch},
+    sim::{FilmClock, StepScratch},
+    stain::{Environment, StainFields},
 };
 
 /// Written out, so that the simulation knows no engine.
@@ -50,8 +51,8 @@ pub struct FilmPace {
     pub rate: f64,
     /// Whether this film stands still.
     pub paused: bool,
-    /// Direction of gravity in the film's space: a unit vector, or zero in weightlessness.
-    pub gravity: Vec3,
+    /// Gravity and weather in the film's space.
+    pub environment: Environment,
     /// Steps owed by the clock.
     pub(super) owed: f64,
     /// Steps asked for one by one.
@@ -72,7 +73,7 @@ impl FilmPace {
             settings,
             rate: 1.0,
             paused: false,
-            gravity: Vec3::NEG_Y,
+            environment: Environment::default(),
             owed: 0.0,
             requested: 0,
             planned: 0,
@@ -99,6 +100,8 @@ pub struct FilmRevision {
     pub exposure: u32,
     /// Edges tore or faces were removed.
     pub topology: u32,
+    /// [`StainFields::revision`]: stains look different.
+    pub stains: u32,
 }
 
 /// What a film was made of and how.

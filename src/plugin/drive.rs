@@ -71,7 +71,7 @@ fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &G
     let mut rounds = 0;
     for (mut pace, clock, transform) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
-        pace.gravity = (transform.rotation().inverse() * gravity).normalize_or_zero();
+        pace.environment.gravity = (transform.rotation().inverse() * gravity).normalize_or_zero();
         pace.requested = pace.requested.saturating_add(requested);
         let owed = age * pace.rate * f64::from(clock.steps_per_age);
         if !pace.paused && owed > 0.0 {

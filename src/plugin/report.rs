@@ -14,6 +14,7 @@ use super::{FilmPace, FilmRevision, FirstCrack, PieceFallen, components::FilmSou
 use crate::{
     film::{FilmChanges, FilmMesh},
     sim::{FilmClock, Stage},
+    stain::StainFields,
 };
 
 /// Reports the first crack and fallen pieces of the due films, and counts up their revisions.
@@ -24,6 +25,7 @@ pub(super) fn report(
         &FilmMesh,
         &FilmClock,
         &FilmChanges,
+        &StainFields,
         &FilmSource,
         &GlobalTransform,
         &mut FilmRevision,
@@ -33,7 +35,7 @@ pub(super) fn report(
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::Other, || {
-        for (entity, mut pace, mesh, clock, changes, source, transform, mut revision) in &mut films {
+        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut revision) in &mut films {
             if !pace.due {
                 continue;
             }
@@ -55,10 +57,12 @@ pub(super) fn report(
             }
             let topology = !(changes.torn.is_empty() && changes.removed.is_empty());
             let exposure = !(changes.separated.is_empty() && changes.removed.is_empty());
-            if topology || exposure || changes.moved {
+            let stained = stains.revision != revision.stains;
+            if topology || exposure || changes.moved || stained {
                 revision.positions = revision.positions.wrapping_add(u32::from(changes.moved));
                 revision.topology = revision.topology.wrapping_add(u32::from(topology));
                 revision.exposure = revision.exposure.wrapping_add(u32::from(exposure));
+                revision.stains = stains.revision;
             }
         }
     });

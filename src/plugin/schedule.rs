@@ -25,11 +25,11 @@ pub enum CoatingSystems {
     Strip,
     /// Constraints follow fracture, then the separated film bends (PBD-2, VC 4).
     Bend,
-    /// Rust runs off (VC 6.1). Empty so far.
+    /// Rust comes out of cracks, runs off and stains; bare metal rusts (VC 6.1).
     Rust,
-    /// Dust and soot settle (VC 6.2). Empty so far.
+    /// Dust and soot settle (VC 6.2).
     Dust,
-    /// Moisture spreads and dries. Empty so far.
+    /// Rain wets, air and sun dry, and water washes.
     Moisture,
     /// What happened becomes messages and is noted for display.
     Report,
@@ -63,6 +63,9 @@ pub(super) fn add_step_schedule(app: &mut App) {
             step::tear.in_set(CoatingSystems::Tear),
             step::strip.in_set(CoatingSystems::Strip),
             (step::link, step::bend).chain().in_set(CoatingSystems::Bend),
+            step::rust.in_set(CoatingSystems::Rust),
+            step::dust.in_set(CoatingSystems::Dust),
+            step::moisture.in_set(CoatingSystems::Moisture),
             report::report.in_set(CoatingSystems::Report),
         ),
     );

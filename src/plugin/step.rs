@@ -11,7 +11,9 @@ use crate::{
     deform::FilmConstraints,
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
+    settings::CoatingSettings,
     sim::{FilmClock, Stage, StepScratch, stage},
+    stain::{Environment, StainFields},
 };
 
 /// Counts the step and forgets the last one's changes.
@@ -30,13 +32,13 @@ pub(super) fn begin(
 
 /// [`stage::forces`].
 pub(super) fn age_forces(
-    mut films: Query<(&FilmPace, &FilmMesh, &mut FilmForces, &FilmClock)>,
+    mut films: Query<(&FilmPace, &FilmMesh, &mut FilmForces, &StainFields, &FilmClock)>,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::Fracture, || {
-        films.par_iter_mut().for_each(|(pace, mesh, mut forces, clock)| {
+        films.par_iter_mut().for_each(|(pace, mesh, mut forces, stains, clock)| {
             if pace.due {
-                stage::forces(mesh, &mut forces, clock, &pace.settings);
+                stage::forces(mesh, &mut forces, stains, clock, &pace.settings);
             }
         });
     });
@@ -74,7 +76,7 @@ type Edited<'w, 's> = Query<
 /// [`stage::tear`].
 pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
     edit(films, timings, |pace, mesh, forces, changes, scratch| {
-        stage::tear(mesh, forces, changes, &pace.settings, pace.gravity, &mut scratch.tear);
+        stage::tear(mesh, forces, changes, &pace.settings, pace.environment.gravity, &mut scratch.tear);
         !changes.torn.is_empty()
     });
 }
@@ -156,6 +158,46 @@ pub(super) fn bend(
                     constraints.set_changed();
                     changes.set_changed();
                 }
+            }
+        });
+    });
+}
+
+/// [`stage::rust`].
+pub(super) fn rust(films: Stained, timings: ResMut<CoatingTimings>) {
+    stain(films, timings, stage::rust);
+}
+
+/// [`stage::dust`].
+pub(super) fn dust(films: Stained, timings: ResMut<CoatingTimings>) {
+    stain(films, timings, stage::dust);
+}
+
+/// [`stage::moisture`].
+pub(super) fn moisture(films: Stained, timings: ResMut<CoatingTimings>) {
+    stain(films, timings, stage::moisture);
+}
+
+/// What the stages that stain the film work on.
+type Stained<'w, 's> = Query<
+    'w,
+    's,
+    (&'static FilmPace, &'static FilmMesh, &'static mut StainFields, &'static FilmClock, &'static FilmChanges),
+>;
+
+/// Runs a stage that stains on the due films. They count as changed when something can be seen of it.
+fn stain(
+    mut films: Stained,
+    mut timings: ResMut<CoatingTimings>,
+    stage: impl Fn(&FilmMesh, &mut StainFields, &FilmClock, &FilmChanges, &CoatingSettings, &Environment) + Sync,
+) {
+    timings.measure(Stage::Stains, || {
+        films.par_iter_mut().for_each(|(pace, mesh, mut stains, clock, changes)| {
+            if pace.due {
+                let inner = stains.bypass_change_detection();
+                let before = inner.revision;
+                stage(mesh, inner, clock, changes, &pace.settings, &pace.environment);
+                changed_if(&mut stains, |stains| stains.revision != before);
             }
         });
     });

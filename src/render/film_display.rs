@@ -20,7 +20,8 @@ use crate::{
     fracture::FilmForces,
     plugin::{CoatingTimings, FilmRevision, SlotAttributes},
     shown::{ShownChange, ShownFilm},
-    sim::Stage,
+    sim::{FilmState, Stage},
+    stain::StainFields,
 };
 
 /// What is shown of a film, and the assets that show it.
@@ -51,7 +52,7 @@ struct DisplaySlot {
 impl FilmDisplay {
     /// Display of a film at rest.
     pub fn new(
-        film: (&FilmMesh, &FilmForces),
+        film: &FilmState,
         surface: &Surface,
         built: &BuiltFilm,
         slots: Vec<SlotAttributes>,
@@ -59,22 +60,22 @@ impl FilmDisplay {
     ) -> Self {
         let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
         Self {
-            shown: ShownFilm::new(built, surface, film.0, film.1),
+            shown: ShownFilm::new(built, surface, &film.mesh, &film.forces, &film.stains),
             space: PartSpace::new(scale),
             slots: slots.into_iter().map(empty).collect(),
             seen: FilmRevision::default(),
             pending: None,
             // A film that has been aged already has backs and metal from the first frame on.
             #[cfg(feature = "render")]
-            pending_parts: Some(ShownChange { topology: true, exposure: true }),
+            pending_parts: Some(ShownChange { topology: true, exposure: true, stains: true }),
             #[cfg(feature = "render")]
             parts: super::parts::PartHandles::default(),
         }
     }
 
     /// Follows the film to where it is when it is put on its prop, and writes the meshes. Part of building it.
-    pub fn prepare(&mut self, mesh: &FilmMesh, forces: &FilmForces) {
-        self.shown.update(mesh, forces);
+    pub fn prepare(&mut self, film: &FilmState) {
+        self.shown.update(&film.mesh, &film.forces, &film.stains);
         for (slot, display) in self.slots.iter_mut().enumerate() {
             // A primitive of which nothing was left after cleaning keeps its mesh.
             let Some(part) = self.shown.front(slot) else { continue };
@@ -95,17 +96,17 @@ impl FilmDisplay {
 
 /// Brings what is shown up to date with the films that changed, in parallel. Touches no asset.
 pub(super) fn follow_films(
-    mut films: Query<(&FilmMesh, &FilmForces, &FilmRevision, &mut FilmDisplay)>,
+    mut films: Query<(&FilmMesh, &FilmForces, &StainFields, &FilmRevision, &mut FilmDisplay)>,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::MeshGeneration, || {
-        films.par_iter_mut().for_each(|(mesh, forces, revision, mut display)| {
+        films.par_iter_mut().for_each(|(mesh, forces, stains, revision, mut display)| {
             if display.seen == *revision {
                 return;
             }
             let display = display.bypass_change_detection();
             display.seen = *revision;
-            let change = display.shown.update(mesh, forces);
+            let change = display.shown.update(mesh, forces, stains);
             add(&mut display.pending, change);
             #[cfg(feature = "render")]
             add(&mut display.pending_parts, change);
@@ -117,6 +118,7 @@ fn add(pending: &mut Option<ShownChange>, change: ShownChange) {
     let pending = pending.get_or_insert_default();
     pending.topology |= change.topology;
     pending.exposure |= change.exposure;
+    pending.stains |= change.stains;
 }
 
 /// Writes the meshes of the films that changed.

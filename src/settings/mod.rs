@@ -30,7 +30,8 @@ pub use field::{Field, Range};
 pub use presets::PRESETS;
 pub(crate) use stages::with_stages;
 pub use stages::{
-    AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, StrippingSettings, TearingSettings,
+    AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
+    StrippingSettings, TearingSettings,
 };
 
 impl CoatingSettings {

@@ -47,6 +47,15 @@ impl Backs {
         part.normals.resize(fronts.len(), [0.0; 3]);
     }
 
+    /// Gives the backs the stains and places of their fronts.
+    pub fn stain(&mut self, fronts: &[ShownPart]) {
+        let Self { part, fronts: behind, .. } = self;
+        part.stains.clear();
+        part.stains.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].stains[vertex as usize]));
+        part.rest.clear();
+        part.rest.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest[vertex as usize]));
+    }
+
     /// Moves the backs to where the fronts are now.
     pub fn follow(&mut self, fronts: &[ShownPart], thickness: f32) {
         for (i, &(slot, vertex)) in self.fronts.iter().enumerate() {

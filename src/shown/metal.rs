@@ -5,7 +5,11 @@ use super::{
     sides::{Sides, has_separated},
     wedges::Wedges,
 };
-use crate::{film::FilmMesh, fracture::FilmForces};
+use crate::{
+    film::{FilmMesh, VertexId},
+    fracture::FilmForces,
+    stain::StainFields,
+};
 
 /// No vertex yet, in the lookup.
 const NONE: u32 = u32::MAX;
@@ -16,6 +20,8 @@ pub(super) struct Metal {
     pub part: ShownPart,
     /// Vertex of each wedge at rest.
     of_wedge: Vec<u32>,
+    /// Original film vertex that each vertex lies under.
+    originals: Vec<VertexId>,
 }
 
 impl Metal {
@@ -29,9 +35,10 @@ impl Metal {
         attributes: &CornerAttributes,
         depth: f32,
     ) {
-        let Self { part, of_wedge } = self;
+        let Self { part, of_wedge, originals } = self;
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
         part.clear();
+        originals.clear();
         of_wedge.clear();
         of_wedge.resize(wedges.rest_count(), NONE);
         for f in topology.all_faces() {
@@ -42,7 +49,10 @@ impl Metal {
                 let vertex = &mut of_wedge[wedges.at_rest(h) as usize];
                 if *vertex == NONE {
                     *vertex = part.positions.len() as u32;
-                    let v = topology.original(topology.origin(h)).index();
+                    let original = topology.original(topology.origin(h));
+                    let v = original.index();
+                    originals.push(original);
+                    part.rest.push(geometry.rest_positions[v].to_array());
                     let outwards = if sides.is_flipped(f) { depth } else { -depth };
                     let position = geometry.rest_positions[v] + geometry.rest_normals[v] * outwards;
                     part.positions.push(position.to_array());
@@ -52,5 +62,17 @@ impl Metal {
                 part.indices.push(*vertex);
             }
         }
+    }
+
+    /// Gives the metal its stains.
+    pub fn stain(&mut self, stains: &StainFields) {
+        let layer = &stains.metal;
+        self.part.stains.clear();
+        self.part.stains.extend(
+            self.originals
+                .iter()
+                .map(|v| v.index())
+                .map(|v| [layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v]]),
+        );
     }
 }

@@ -13,6 +13,7 @@
 
 mod backs;
 mod corners;
+pub mod look;
 mod metal;
 mod normals;
 mod part;
@@ -30,6 +31,7 @@ use crate::{
         build::{BuiltFilm, Surface},
     },
     fracture::FilmForces,
+    stain::StainFields,
 };
 use backs::Backs;
 use metal::Metal;
@@ -51,6 +53,8 @@ pub struct ShownChange {
     pub topology: bool,
     /// Other faces than before show their backs or the metal under them.
     pub exposure: bool,
+    /// Stains look different.
+    pub stains: bool,
 }
 
 /// The shown parts of one film, and what is needed to bring them up to date.
@@ -73,11 +77,19 @@ struct Seen {
     torn: u32,
     removed: usize,
     separated: usize,
+    stains: u32,
 }
 
 impl ShownFilm {
-    /// The shown parts of the film of `built`, which was made of `surface`, in the state of `mesh` and `forces`.
-    pub fn new(built: &BuiltFilm, surface: &Surface, mesh: &FilmMesh, forces: &FilmForces) -> Self {
+    /// The shown parts of the film of `built`, which was made of `surface`, in the state of `mesh`, `forces` and
+    /// `stains`.
+    pub fn new(
+        built: &BuiltFilm,
+        surface: &Surface,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+    ) -> Self {
         let attributes = CornerAttributes::sample(built, surface, mesh);
         let sides = Sides::new(built, mesh.topology.face_count());
         let mut shown = Self {
@@ -90,7 +102,7 @@ impl ShownFilm {
             metal: Metal::default(),
             seen: None,
         };
-        shown.update(mesh, forces);
+        shown.update(mesh, forces, stains);
         shown
     }
 
@@ -115,23 +127,25 @@ impl ShownFilm {
     }
 
     /// Brings the parts up to date with the film.
-    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces) -> ShownChange {
+    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> ShownChange {
         let topology = &mesh.topology;
         let seen = Seen {
             vertices: topology.vertex_count(),
             torn: forces.torn_edges,
             removed: topology.face_count() - topology.live_faces().count(),
             separated: topology.all_vertices().filter(|&v| !forces.is_attached(v)).count(),
+            stains: stains.revision,
         };
         let topology_changed = self
             .seen
             .is_none_or(|old| (old.vertices, old.torn, old.removed) != (seen.vertices, seen.torn, seen.removed));
         let exposure_changed =
             self.seen.is_none_or(|old| (old.removed, old.separated) != (seen.removed, seen.separated));
+        let stains_changed = self.seen.is_none_or(|old| old.stains != seen.stains);
         self.seen = Some(seen);
         if topology_changed {
             self.wedges.renew(topology, &self.sides);
-            self.write_front_attributes();
+            self.write_front_attributes(mesh);
             self.write_front_indices(topology);
         }
         self.frames.turn_faces(mesh);
@@ -144,10 +158,19 @@ impl ShownFilm {
             let depth = mesh.geometry.mean_edge * METAL_DEPTH;
             self.metal.renew(mesh, forces, &self.sides, &self.wedges, &self.attributes, depth);
         }
-        ShownChange { topology: topology_changed, exposure: exposure_changed }
+        if topology_changed || stains_changed {
+            self.write_front_stains(topology, stains);
+        }
+        if topology_changed || exposure_changed || stains_changed {
+            self.backs.stain(&self.fronts);
+        }
+        if exposure_changed || stains_changed {
+            self.metal.stain(stains);
+        }
+        ShownChange { topology: topology_changed, exposure: exposure_changed, stains: stains_changed }
     }
 
-    fn write_front_attributes(&mut self) {
+    fn write_front_attributes(&mut self, mesh: &FilmMesh) {
         for (slot, part) in self.fronts.iter_mut().enumerate() {
             let corners = self.wedges.corners(slot);
             let count = corners.len();
@@ -157,6 +180,21 @@ impl ShownFilm {
             copy(&mut part.uvs, &self.attributes.uvs, corners);
             copy(&mut part.uvs_1, &self.attributes.uvs_1, corners);
             copy(&mut part.colors, &self.attributes.colors, corners);
+            let rest = |&h| mesh.geometry.rest_positions[mesh.topology.origin(h).index()].to_array();
+            part.rest.clear();
+            part.rest.extend(corners.iter().map(rest));
+        }
+    }
+
+    fn write_front_stains(&mut self, topology: &Topology, stains: &StainFields) {
+        for (slot, part) in self.fronts.iter_mut().enumerate() {
+            part.stains.clear();
+            part.stains.extend(self.wedges.corners(slot).iter().map(|&h| {
+                let v = topology.origin(h);
+                let (film, metal) = (v.index(), topology.original(v).index());
+                let layer = &stains.film;
+                [layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal]]
+            }));
         }
     }
 

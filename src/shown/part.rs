@@ -16,6 +16,10 @@ pub struct ShownPart {
     pub tangents: Vec<[f32; 4]>,
     /// Linear colours.
     pub colors: Vec<[f32; 4]>,
+    /// Stains: layers of rust, dust, moisture, and how far the metal has rusted at this place.
+    pub stains: Vec<[f32; 4]>,
+    /// Where each vertex lies at rest: what patterns are tied to, so that they do not swim when flakes move.
+    pub rest: Vec<[f32; 3]>,
     /// Three vertices a triangle, wound as the prop's own triangles are.
     pub indices: Vec<u32>,
 }
@@ -33,6 +37,8 @@ impl ShownPart {
         self.uvs_1.clear();
         self.tangents.clear();
         self.colors.clear();
+        self.stains.clear();
+        self.rest.clear();
         self.indices.clear();
     }
 }

@@ -3,16 +3,16 @@
 use bevy_math::{Vec2, Vec3};
 
 use super::{sides::has_separated, *};
-use crate::{film::build::sample, settings::CoatingSettings, sim::FilmState};
+use crate::{film::build::sample, settings::CoatingSettings, sim::FilmState, stain::Environment};
 
 fn aged(age: f64) -> (FilmState, ShownFilm, Surface) {
     let piece = sample::plate(600, 4).unwrap();
     let mut settings = CoatingSettings::default();
     settings.deform.sweeps_per_age = 2000.0;
     let mut film = FilmState::new(&piece.film, &settings, 4, 250).unwrap();
-    let mut shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces);
-    film.age_to(age, &settings, Vec3::NEG_Y);
-    shown.update(&film.mesh, &film.forces);
+    let mut shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    film.age_to(age, &settings, &Environment::default());
+    shown.update(&film.mesh, &film.forces, &film.stains);
     (film, shown, piece.surface)
 }
 
@@ -109,12 +109,12 @@ fn updates_say_what_changed() {
     let piece = sample::plate(300, 1).unwrap();
     let settings = CoatingSettings::default();
     let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
-    let mut shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces);
-    assert_eq!(shown.update(&film.mesh, &film.forces), ShownChange::default());
+    let mut shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    assert_eq!(shown.update(&film.mesh, &film.forces, &film.stains), ShownChange::default());
     let (mut topology, mut exposure) = (false, false);
     for _ in 0..100 {
-        film.step(&settings, Vec3::NEG_Y);
-        let change = shown.update(&film.mesh, &film.forces);
+        film.step(&settings, &Environment::default());
+        let change = shown.update(&film.mesh, &film.forces, &film.stains);
         assert_eq!(change.topology, !film.changes.torn.is_empty() || !film.changes.removed.is_empty());
         assert_eq!(
             change.exposure,
@@ -133,7 +133,7 @@ fn a_prop_without_normals_gets_smooth_ones_where_it_is_smooth() {
     let piece = sample::curved_plate(400, 2).unwrap();
     let surface = Surface { normals: Vec::new(), ..piece.surface };
     let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
-    let shown = ShownFilm::new(&piece.film, &surface, &film.mesh, &film.forces);
+    let shown = ShownFilm::new(&piece.film, &surface, &film.mesh, &film.forces, &film.stains);
     let front = shown.front(0).unwrap();
     for (p, n) in front.positions.iter().zip(&front.normals) {
         let out = Vec3::new(p[0], 0.0, p[2]).normalize();
@@ -146,7 +146,7 @@ fn flipped_faces_are_wound_as_the_prop_was() {
     let mut piece = sample::plate(100, 2).unwrap();
     piece.film.flipped = vec![true; 100];
     let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
-    let shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces);
+    let shown = ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
     let front = shown.front(0).unwrap();
     for t in triangles(front) {
         let [a, b, c] = t.map(|i| at(&front.positions, i));

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::FilmState;
-use crate::film::{FaceFate, HalfEdgeId, LoosePieces, PieceScratch, VertexId};
+use crate::{
+    film::{FaceFate, HalfEdgeId, LoosePieces, PieceScratch, VertexId},
+    stain::{RustBudget, RustSource},
+};
 
 /// Figures of a film at one age. Shares are of the film at rest; `None` where there is nothing to average.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,6 +43,21 @@ pub struct FilmMeasures {
     /// 90th percentile (nearest rank), over live separated vertices, of the height over their plane in mean
     /// rest edges.
     pub lift_p90: Option<f64>,
+    /// Rust that sources have given off so far: layers times square metres. It is all of what is wet, what has
+    /// stained and what has dripped, on film and metal.
+    pub rust_emitted: f64,
+    /// Rust that runs off now.
+    pub rust_wet: f64,
+    /// Rust that has stained film and metal for good.
+    pub rust_stained: f64,
+    /// Rust that left: dripped off, or fell with the pieces that it was on.
+    pub rust_dripped: f64,
+    /// Film vertices that rust comes out of.
+    pub sources: u64,
+    /// Mean dust over live film vertices: 0 clean to 1 black.
+    pub dust_mean: Option<f64>,
+    /// Mean moisture over live film vertices: 0 dry to 1 wet.
+    pub moisture_mean: Option<f64>,
 }
 
 impl FilmState {
@@ -82,6 +100,12 @@ struct Sums {
     strain_max: f64,
     strains: u64,
     heights: Vec<f32>,
+    budget: RustBudget,
+    wet: f64,
+    stained: f64,
+    sources: u64,
+    dust: f64,
+    moisture: f64,
 }
 
 impl Sums {
@@ -89,6 +113,7 @@ impl Sums {
         self.add_fracture(film);
         self.add_crack_shapes(film);
         self.add_deformation(film);
+        self.add_stains(film);
     }
 
     fn add_fracture(&mut self, film: &FilmState) {
@@ -175,6 +200,24 @@ impl Sums {
         self.heights.extend(lifted.map(|v| geometry.height(v) / geometry.mean_edge));
     }
 
+    fn add_stains(&mut self, film: &FilmState) {
+        let stains = &film.stains;
+        self.budget.emitted += stains.budget.emitted;
+        self.budget.dripped += stains.budget.dripped;
+        for layer in [&stains.film, &stains.metal] {
+            let amount = |field: &[f32]| -> f64 {
+                layer.areas.iter().zip(field).map(|(&area, &layers)| f64::from(area) * f64::from(layers)).sum()
+            };
+            self.wet += amount(&layer.wet);
+            self.stained += amount(&layer.stained);
+        }
+        self.sources += stains.sources.iter().filter(|&&source| source == RustSource::Present).count() as u64;
+        for v in film.mesh.topology.all_vertices().filter(|&v| film.mesh.topology.has_faces(v)) {
+            self.dust += f64::from(stains.film.dust[v.index()]);
+            self.moisture += f64::from(stains.film.moisture[v.index()]);
+        }
+    }
+
     fn finish(mut self, age: f64) -> FilmMeasures {
         let share = |part: u64, whole: u64| (whole > 0).then(|| part as f64 / whole as f64);
         self.heights.sort_unstable_by(f32::total_cmp);
@@ -196,6 +239,13 @@ impl Sums {
             strain_rms: (self.strains > 0).then(|| (self.strain_squares / self.strains as f64).sqrt()),
             strain_max: (self.strains > 0).then_some(self.strain_max),
             lift_p90: rank.checked_sub(1).and_then(|i| self.heights.get(i)).map(|&h| f64::from(h)),
+            rust_emitted: self.budget.emitted,
+            rust_wet: self.wet,
+            rust_stained: self.stained,
+            rust_dripped: self.budget.dripped,
+            sources: self.sources,
+            dust_mean: (self.vertices > 0).then(|| self.dust / self.vertices as f64),
+            moisture_mean: (self.vertices > 0).then(|| self.moisture / self.vertices as f64),
         }
     }
 }

@@ -13,5 +13,5 @@ mod tests;
 pub use clock::{DEFAULT_STEPS_PER_AGE, FilmClock};
 pub use digest::DIGEST_ALGORITHM;
 pub use measure::FilmMeasures;
-pub use state::{FilmState, StainFields, StepScratch, stage};
+pub use state::{FilmState, StepScratch, stage};
 pub use timing::{Stage, StageTimes};

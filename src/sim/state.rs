@@ -8,17 +8,13 @@ use crate::{
     film::{FilmChanges, FilmMesh, InvariantError, PieceScratch, VertexId, build::BuiltFilm},
     fracture::{self, FilmForces, TearScratch},
     settings::CoatingSettings,
+    stain::{Environment, StainFields},
 };
 
 /// How far below its plane a vertex may lie, in mean edges.
 const PLANE_TOLERANCE: f32 = 1e-5;
 /// And in units of the last place of its coordinates, which count where a film is far from its origin.
 const PLANE_ROUNDING: f32 = 8.0 * f32::EPSILON;
-
-/// Stain fields of a film. The stages that fill them (rust, dust, moisture) follow bending; the film carries
-/// the component so that their place in the step is fixed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StainFields {}
 
 /// Buffers of a step, kept between steps. Holds nothing that matters from one step to the next.
 #[derive(Clone, Debug, Default)]
@@ -54,8 +50,8 @@ pub struct FilmState {
 /// outside the plugin's schedule.
 pub mod stage {
     use super::{
-        BendScratch, CoatingSettings, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh, PieceScratch,
-        TearScratch, Vec3, deform, fracture,
+        BendScratch, CoatingSettings, Environment, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh,
+        PieceScratch, StainFields, TearScratch, Vec3, deform, fracture,
     };
 
     /// Begins a step: forgets the last one's changes and counts.
@@ -65,7 +61,15 @@ pub mod stage {
     }
 
     /// Forces age (VC 5.1, 5.2).
-    pub fn forces(mesh: &FilmMesh, forces: &mut FilmForces, clock: &FilmClock, settings: &CoatingSettings) {
+    /// Wet paint loses its hold faster.
+    pub fn forces(
+        mesh: &FilmMesh,
+        forces: &mut FilmForces,
+        stains: &StainFields,
+        clock: &FilmClock,
+        settings: &CoatingSettings,
+    ) {
+        let _ = stains;
         fracture::age_forces(mesh, forces, settings, clock.dt());
     }
 
@@ -122,6 +126,42 @@ pub mod stage {
         let pace = (clock.dt(), sweeps);
         deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, scratch);
     }
+
+    /// Rust comes out of cracks, runs off and stains; bare metal rusts (VC 6.1).
+    pub fn rust(
+        mesh: &FilmMesh,
+        stains: &mut StainFields,
+        clock: &FilmClock,
+        changes: &FilmChanges,
+        settings: &CoatingSettings,
+        environment: &Environment,
+    ) {
+        let _ = (mesh, stains, clock, changes, settings, environment);
+    }
+
+    /// Dust and soot settle (VC 6.2).
+    pub fn dust(
+        mesh: &FilmMesh,
+        stains: &mut StainFields,
+        clock: &FilmClock,
+        changes: &FilmChanges,
+        settings: &CoatingSettings,
+        environment: &Environment,
+    ) {
+        let _ = (mesh, stains, clock, changes, settings, environment);
+    }
+
+    /// Rain wets, air and sun dry, and water washes.
+    pub fn moisture(
+        mesh: &FilmMesh,
+        stains: &mut StainFields,
+        clock: &FilmClock,
+        changes: &FilmChanges,
+        settings: &CoatingSettings,
+        environment: &Environment,
+    ) {
+        let _ = (mesh, stains, clock, changes, settings, environment);
+    }
 }
 
 impl FilmState {
@@ -135,6 +175,7 @@ impl FilmState {
     /// A fresh film on `mesh`.
     pub fn from_mesh(mesh: FilmMesh, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Self {
         Self {
+            stains: StainFields::new(&mesh),
             forces: FilmForces::new(&mesh, settings, seed),
             constraints: FilmConstraints::new(&mesh),
             clock: FilmClock::new(steps_per_age),
@@ -143,31 +184,36 @@ impl FilmState {
         }
     }
 
-    /// Takes one step. `gravity` is a unit vector in the film's space.
-    pub fn step(&mut self, settings: &CoatingSettings, gravity: Vec3) {
-        self.step_timed(settings, gravity, &mut StageTimes::default());
+    /// Takes one step.
+    pub fn step(&mut self, settings: &CoatingSettings, environment: &Environment) {
+        self.step_timed(settings, environment, &mut StageTimes::default());
     }
 
     /// Takes one step and adds the time spent in each stage to `times`.
-    pub fn step_timed(&mut self, settings: &CoatingSettings, gravity: Vec3, times: &mut StageTimes) {
-        let Self { mesh, forces, constraints, stains: _, clock, changes, scratch } = self;
+    pub fn step_timed(&mut self, settings: &CoatingSettings, environment: &Environment, times: &mut StageTimes) {
+        let Self { mesh, forces, constraints, stains, clock, changes, scratch } = self;
         stage::begin(clock, changes);
         times.measure(Stage::Fracture, || {
-            stage::forces(mesh, forces, clock, settings);
+            stage::forces(mesh, forces, stains, clock, settings);
             stage::separate(mesh, forces, clock, changes, settings);
-            stage::tear(mesh, forces, changes, settings, gravity, &mut scratch.tear);
+            stage::tear(mesh, forces, changes, settings, environment.gravity, &mut scratch.tear);
             stage::strip(mesh, forces, changes, settings, &mut scratch.pieces);
             stage::link(mesh, constraints, changes);
         });
         times.measure(Stage::Deformation, || {
             stage::bend(mesh, constraints, forces, clock, changes, settings, &mut scratch.bend);
         });
+        times.measure(Stage::Stains, || {
+            stage::rust(mesh, stains, clock, changes, settings, environment);
+            stage::dust(mesh, stains, clock, changes, settings, environment);
+            stage::moisture(mesh, stains, clock, changes, settings, environment);
+        });
     }
 
     /// Steps until the film is `age` old; does nothing if it is already.
-    pub fn age_to(&mut self, age: f64, settings: &CoatingSettings, gravity: Vec3) {
+    pub fn age_to(&mut self, age: f64, settings: &CoatingSettings, environment: &Environment) {
         while self.clock.steps < self.clock.step_at(age) {
-            self.step(settings, gravity);
+            self.step(settings, environment);
         }
     }
 

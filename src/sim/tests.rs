@@ -6,6 +6,7 @@ use super::*;
 use crate::{
     film::{FaceFate, build::sample},
     settings::CoatingSettings,
+    stain::Environment,
 };
 
 fn plate(triangles: u32, seed: u64, settings: &CoatingSettings, steps_per_age: u32) -> FilmState {
@@ -29,7 +30,7 @@ fn every_invariant_holds_at_every_step() {
         // More than the reference run: films go on ageing past 1.
         let mut film = plate(400, seed, &settings, 200);
         for step in 0..300 {
-            film.step(&settings, Vec3::new(0.6, -0.8, 0.0));
+            film.step(&settings, &Environment::still(Vec3::new(0.6, -0.8, 0.0)));
             film.validate().unwrap_or_else(|e| panic!("seed {seed}, step {step}: {e}"));
         }
         let m = film.measure();
@@ -44,7 +45,7 @@ fn closed_and_curved_films_age_too() {
     let mesh = crate::film::FilmMesh::new(positions, &triangles).unwrap();
     let mut film = FilmState::from_mesh(mesh, &settings, 3, 250);
     for _ in 0..250 {
-        film.step(&settings, Vec3::NEG_Y);
+        film.step(&settings, &Environment::default());
         film.validate().unwrap();
     }
     assert!(film.measure().torn > Some(0.02));
@@ -56,7 +57,7 @@ fn the_same_seed_gives_the_same_bits_and_another_does_not() {
     let run = |seed| {
         let mut film = plate(300, 9, &settings, 100);
         film = FilmState::from_mesh(film.mesh, &settings, seed, 100);
-        film.age_to(1.0, &settings, Vec3::NEG_Y);
+        film.age_to(1.0, &settings, &Environment::default());
         film.digest()
     };
     assert_eq!(run(4), run(4));
@@ -69,7 +70,7 @@ fn fracture_does_not_depend_on_the_number_of_steps() {
     let share = |steps| {
         let mut film = plate(1000, 2, &settings, steps);
         [0.2, 0.5, 1.0].map(|age| {
-            film.age_to(age, &settings, Vec3::NEG_Y);
+            film.age_to(age, &settings, &Environment::default());
             film.measure().separated.unwrap()
         })
     };
@@ -90,7 +91,7 @@ fn the_plate_of_3012_triangles_fractures_within_its_bands() {
     for seed in 1..=5 {
         let mut film = plate(3012, seed, &settings, 1000);
         let mut at = |age| {
-            film.age_to(age, &settings, Vec3::NEG_Y);
+            film.age_to(age, &settings, &Environment::default());
             film.measure()
         };
         let (a, b, c, d) = (at(0.2), at(0.4), at(0.6), at(1.0));
@@ -111,7 +112,7 @@ fn cracks_run_nearly_straight() {
     let straightness: Vec<f64> = (1..=3)
         .filter_map(|seed| {
             let mut film = plate(3012, seed, &settings, 500);
-            film.age_to(0.5, &settings, Vec3::NEG_Y);
+            film.age_to(0.5, &settings, &Environment::default());
             film.measure().straightness
         })
         .collect();
@@ -123,7 +124,7 @@ fn without_weak_edges_nothing_tears() {
     let mut settings = quick();
     settings.tearing.weak_probability = 0.0;
     let mut film = plate(1000, 1, &settings, 250);
-    film.age_to(1.0, &settings, Vec3::NEG_Y);
+    film.age_to(1.0, &settings, &Environment::default());
     assert_eq!(film.measure().torn, Some(0.0));
     assert!(film.measure().separated > Some(0.5));
 }
@@ -134,7 +135,7 @@ fn flakes_curl_outwards_as_far_as_in_the_reference() {
     // another mesh; within a third here.
     let settings = CoatingSettings::default();
     let mut film = plate(1000, 3, &settings, 500);
-    film.age_to(1.0, &settings, Vec3::NEG_Y);
+    film.age_to(1.0, &settings, &Environment::default());
     let m = film.measure();
     assert!((1.2..2.8).contains(&m.lift_p90.unwrap()), "{m:?}");
     assert!((0.005..0.04).contains(&m.strain_rms.unwrap()), "{m:?}");
@@ -146,7 +147,7 @@ fn fallen_and_stripped_faces_are_reported_as_debris_once() {
     let mut film = plate(1000, 1, &settings, 250);
     let (mut faces, mut pieces) = (0, 0);
     for _ in 0..250 {
-        film.step(&settings, Vec3::NEG_Y);
+        film.step(&settings, &Environment::default());
         faces += film.changes.debris.iter().map(|d| d.faces).sum::<u32>();
         pieces += film.changes.debris.len();
     }
@@ -181,7 +182,7 @@ fn measures_of_several_films_add_up() {
     let settings = quick();
     let films = [1, 2].map(|seed| {
         let mut film = plate(300, seed, &settings, 100);
-        film.age_to(0.8, &settings, Vec3::NEG_Y);
+        film.age_to(0.8, &settings, &Environment::default());
         film
     });
     let (a, b, both) = (films[0].measure(), films[1].measure(), FilmState::measure_all(&films));

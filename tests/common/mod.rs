@@ -14,7 +14,8 @@ use bevy_coating::{
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
     prelude::*,
-    sim::{FilmState, StainFields, StepScratch},
+    sim::{FilmState, StepScratch},
+    stain::StainFields,
 };
 
 /// Frames after which a background build must be done; each waits a millisecond.

@@ -23,7 +23,9 @@ pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
     let Baked { props, films, stopwatch, materials, .. } = baked;
     let shown: Vec<ShownFilm> = stopwatch.mesh(|| {
         let pairs = props.iter().zip(films.iter());
-        pairs.map(|(prop, film)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces)).collect()
+        pairs
+            .map(|(prop, film)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
+            .collect()
     });
     let mut chunk = BinaryChunk::default();
     let mut materials = Materials::new(materials);

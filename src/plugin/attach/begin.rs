@@ -27,6 +27,7 @@ use crate::{
         components::{AwaitingFilm, FilmSlot},
     },
     settings::CoatingSettings,
+    stain::Environment,
 };
 
 /// `None` while something has to be waited for.
@@ -105,7 +106,7 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
         key: coating.key(),
         settings,
         scale,
-        gravity: (rotation.inverse() * gravity).normalize_or_zero(),
+        environment: Environment::still((rotation.inverse() * gravity).normalize_or_zero()),
     }))
 }
 

@@ -16,6 +16,7 @@ use crate::{
     render::FilmDisplay,
     settings::CoatingSettings,
     sim::FilmState,
+    stain::Environment,
 };
 
 /// A film that is being built. Dropping it calls the work off.
@@ -34,7 +35,7 @@ pub(super) struct FilmOrder {
     pub key: FilmKey,
     pub settings: Arc<CoatingSettings>,
     pub scale: Vec3,
-    pub gravity: Vec3,
+    pub environment: Environment,
 }
 
 /// A film that is ready to be put on its prop.
@@ -47,13 +48,13 @@ pub(crate) struct FilmReadiness {
 
 /// Builds, dresses and ages a film.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { meshes, key, settings, scale, gravity } = order;
+    let FilmOrder { meshes, key, settings, scale, environment } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
-    let mut display = FilmDisplay::new((&film.mesh, &film.forces), &surface, &built, attributes, *scale);
-    film.age_to(key.start_age, settings, *gravity);
-    display.prepare(&film.mesh, &film.forces);
+    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale);
+    film.age_to(key.start_age, settings, environment);
+    display.prepare(&film);
     Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display }))
 }

@@ -25,7 +25,8 @@ use crate::{
         components::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource},
     },
     render::FilmDisplay,
-    sim::{FilmClock, StainFields, StepScratch},
+    sim::{FilmClock, StepScratch},
+    stain::StainFields,
 };
 
 /// All that the plugin puts on the entity of a film.
