@@ -36,7 +36,7 @@ impl Plugin for ScenePlugin {
 }
 
 fn paint_sky(mut commands: Commands, mut images: ResMut<Assets<Image>>) {
-    commands.insert_resource(sky::Sky::paint(&mut images));
+    commands.insert_resource(sky::paint(&mut images));
 }
 
 /// What the builders share: where finished parts go, and the dice.
