@@ -5,8 +5,10 @@
 //! | rust | [`run_off`] | VC 6.1, figs. 9 and 10 |
 //! | dust | [`settle_dust`] | VC 6.2, fig. 11 |
 //! | moisture | [`wet`] | beyond the paper |
+//! | exposure | [`exposure`] | beyond the paper |
 
 mod environment;
+pub mod exposure;
 mod fields;
 mod flow;
 
