@@ -13,7 +13,7 @@ use bevy::{
 };
 
 use super::{
-    CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, FilmPace,
+    CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, CoatingWeather, FilmPace,
     components::{AwaitingFilm, FilmRefused, FilmSlot},
 };
 use crate::sim::FilmClock;
@@ -61,7 +61,8 @@ fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
 /// Plans each film's steps; gives the largest number of them.
 fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>) -> u64 {
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
-    let gravity = world.resource::<CoatingGravity>().0;
+    let gravity = *world.resource::<CoatingGravity>();
+    let weather = *world.resource::<CoatingWeather>();
     let (age, target, requested) = {
         let mut clock = world.resource_mut::<CoatingClock>();
         let clock = clock.bypass_change_detection();
@@ -71,7 +72,7 @@ fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &G
     let mut rounds = 0;
     for (mut pace, clock, transform) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
-        pace.environment.gravity = (transform.rotation().inverse() * gravity).normalize_or_zero();
+        pace.environment = weather.environment(gravity, transform);
         pace.requested = pace.requested.saturating_add(requested);
         let owed = age * pace.rate * f64::from(clock.steps_per_age);
         if !pace.paused && owed > 0.0 {

@@ -11,7 +11,6 @@ use bevy::{
         system::{Commands, Query},
         world::{EntityRef, World},
     },
-    math::Vec3,
     mesh::{Mesh3d, skinning::SkinnedMesh},
     tasks::AsyncComputeTaskPool,
     transform::components::{GlobalTransform, Transform},
@@ -23,11 +22,10 @@ use super::{
 };
 use crate::{
     plugin::{
-        CoatedBy, Coating, CoatingFault, CoatingGravity, SettingsSource,
+        CoatedBy, Coating, CoatingFault, CoatingGravity, CoatingWeather, SettingsSource,
         components::{AwaitingFilm, FilmSlot},
     },
     settings::CoatingSettings,
-    stain::Environment,
 };
 
 /// `None` while something has to be waited for.
@@ -96,17 +94,18 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
         }
     }
     let transform = world.get::<GlobalTransform>(film).copied().unwrap_or_default();
-    let (scale, rotation, _) = transform.to_scale_rotation_translation();
+    let (scale, ..) = transform.to_scale_rotation_translation();
     if !scale.is_finite() || scale.min_element() == 0.0 || scale.x * scale.y * scale.z == 0.0 {
         return Err(CoatingFault::Scale(scale.x, scale.y, scale.z));
     }
-    let gravity = world.get_resource::<CoatingGravity>().map_or(Vec3::NEG_Y, |gravity| gravity.0);
+    let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
+    let weather = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
     Ok(Some(FilmOrder {
         meshes,
         key: coating.key(),
         settings,
         scale,
-        environment: Environment::still((rotation.inverse() * gravity).normalize_or_zero()),
+        environment: weather.environment(gravity, &transform),
     }))
 }
 
