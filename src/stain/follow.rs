@@ -21,7 +21,6 @@ pub fn follow_fracture(mesh: &FilmMesh, stains: &mut StainFields, changes: &Film
         return;
     }
     let topology = &mesh.topology;
-    let rest = &mesh.geometry.rest_positions;
     for (&edge, &ends) in changes.torn.iter().zip(&changes.torn_ends) {
         for end in ends {
             if let TearEnd::Split { kept, .. } = end {
@@ -31,8 +30,7 @@ pub fn follow_fracture(mesh: &FilmMesh, stains: &mut StainFields, changes: &Film
         let places = ends.map(|end| match end {
             TearEnd::Opened(v) | TearEnd::Split { kept: v, .. } => topology.original(v),
         });
-        let depths = places.map(|v| rest[v.index()].dot(gravity));
-        judge(stains, mesh, ends, depths, mesh.geometry.rest_lengths[edge.index()]);
+        judge(stains, mesh, ends, gravity, mesh.geometry.rest_lengths[edge.index()]);
         places.into_iter().for_each(|v| stains.flow.wake(v));
     }
     for &f in &changes.removed {

@@ -2,7 +2,9 @@
 
 use bevy_math::Vec3;
 
-use super::{Environment, LEAST_PULL, RustSource, StainFields, StainLayer, corrosion::corrode, outflow::Outflow};
+use super::{
+    Environment, RustSource, StainFields, StainLayer, corrosion::corrode, outflow::Outflow, sources::is_steep,
+};
 use crate::{
     film::{FilmMesh, VertexId},
     settings::{CoatingSettings, MoistureSettings, RustSettings},
@@ -102,7 +104,7 @@ impl Pass<'_> {
         }
         let outflow = stains.flow.film_way(self.mesh, &stains.copies, original, v);
         let mut emitted = 0.0;
-        if source && self.bleeds(original) {
+        if source && is_steep(self.mesh, original, self.gravity) {
             let damp = 1.0 + self.moisture.emission * stains.film.moisture[i];
             emitted = self.dt * self.rust.emission * stains.catchments.length(original) * damp;
             stains.budget.emitted += f64::from(emitted);
@@ -122,12 +124,6 @@ impl Pass<'_> {
         let leaving = self.solve(&mut stains.metal, i, 0.0, &outflow);
         self.share(stains, leaving, &outflow);
         stains.metal.wet[i] > 0.0
-    }
-
-    /// Whether gravity pulls along the surface at all there.
-    fn bleeds(&self, original: VertexId) -> bool {
-        let normal = self.mesh.geometry.rest_normals[original.index()];
-        (self.gravity - normal * self.gravity.dot(normal)).length_squared() >= LEAST_PULL * LEAST_PULL
     }
 
     /// Takes `emitted` (an amount) in, and solves for what stays wet, what stains and what leaves, which is given as an

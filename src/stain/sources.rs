@@ -1,6 +1,8 @@
 //! Where rust comes out: the four rules at each tear (VC 6.1, fig. 9), and how much of a crack drains there.
 
-use super::{RustSource, StainFields};
+use bevy_math::Vec3;
+
+use super::{LEAST_PULL, RustSource, StainFields};
 use crate::film::{FilmMesh, TearEnd, VertexId};
 
 /// How much crack drains to each place. Every torn edge leads down from its upper end to its lower one; where a crack
@@ -45,26 +47,33 @@ impl Catchments {
 
 /// Judges both ends of a tear at the moment of tearing: a crack's end that lies below the other end becomes a source,
 /// one above it does not; a vertex that is no crack's end stays what it is if it lies below and is no source if above
-/// (VC 6.1, rules 1 to 4; a tie counts as above). Duplicates are no sources. `depths` are along gravity, of the
-/// original vertices at the two ends.
-pub(super) fn judge(stains: &mut StainFields, mesh: &FilmMesh, ends: [TearEnd; 2], depths: [f32; 2], length: f32) {
+/// (VC 6.1, rules 1 to 4; a tie counts as above). Duplicates are no sources, nor is a vertex along whose surface
+/// `gravity` does not pull.
+pub(super) fn judge(stains: &mut StainFields, mesh: &FilmMesh, ends: [TearEnd; 2], gravity: Vec3, length: f32) {
     let vertex = |end: TearEnd| match end {
         TearEnd::Opened(v) | TearEnd::Split { kept: v, .. } => v,
     };
+    let original = |i: usize| mesh.topology.original(vertex(ends[i]));
+    let depths = [0, 1].map(|i| mesh.geometry.rest_positions[original(i).index()].dot(gravity));
     for (i, end) in ends.into_iter().enumerate() {
         let below = depths[i] > depths[1 - i];
         let source = &mut stains.sources[vertex(end).index()];
         match (end, below) {
-            (TearEnd::Opened(_), true) => *source = RustSource::Present,
+            (TearEnd::Opened(v), true) if is_steep(mesh, v, gravity) => *source = RustSource::Present,
             (TearEnd::Split { .. }, true) => {}
-            (_, false) => end_source(source),
+            _ => end_source(source),
         }
     }
-    let original = |i: usize| mesh.topology.original(vertex(ends[i]));
     if depths[0] != depths[1] {
         let (upper, lower) = if depths[0] < depths[1] { (0, 1) } else { (1, 0) };
         stains.catchments.connect(original(upper), original(lower), length);
     }
+}
+
+/// Whether `gravity` pulls along the surface at `v`, at rest.
+pub(super) fn is_steep(mesh: &FilmMesh, v: VertexId, gravity: Vec3) -> bool {
+    let normal = mesh.geometry.rest_normals[v.index()];
+    (gravity - normal * gravity.dot(normal)).length_squared() >= LEAST_PULL * LEAST_PULL
 }
 
 /// A source is one no more; what never was one stays so.
