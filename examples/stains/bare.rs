@@ -5,6 +5,7 @@ use crate::common::{BakeError, BakeOptions, Resolution};
 use crate::common_scene::bare::Piece;
 use crate::pieces;
 use crate::stage;
+use crate::weather;
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
     let mut models = Vec::new();
@@ -14,7 +15,7 @@ pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
             let bake = BakeOptions {
                 resolution: Resolution::Triangles(options.triangles.saturating_mul(4)),
                 preset: options.preset.0.clone(),
-                environment: stage::environment(&row),
+                environment: weather::environment(&row),
                 settings: row.settings,
                 age: options.ages.iter().copied().fold(0.0, f64::max),
                 seed: options.scene.seed,

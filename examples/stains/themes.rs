@@ -108,7 +108,7 @@ fn rust(plain: &Row) -> Vec<Row> {
 }
 
 fn moisture(plain: &Row) -> Vec<Row> {
-    let row = |name, title, detail: &str, wet, roof| {
+    let row = |name, title, detail: &str, wet: bool, roof: bool| {
         let mut settings = plain.settings.clone();
         if !wet {
             settings.moisture.wetting = 0.0;
