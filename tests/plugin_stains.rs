@@ -131,7 +131,8 @@ fn wind_rain_and_sun_turn_with_the_prop() {
     assert_eq!((upright.wind, upright.gusts), (weather.wind, weather.gusts));
     assert_eq!((upright.rain, upright.sun, upright.gravity), (weather.rain, weather.sun, Vec3::NEG_Y));
     // A quarter turn to the left, twice as large: what came from above comes from the prop's right.
-    let turn = Transform::from_rotation(Quat::from_rotation_z(std::f32::consts::FRAC_PI_2)).with_scale(Vec3::splat(2.0));
+    let turn =
+        Transform::from_rotation(Quat::from_rotation_z(std::f32::consts::FRAC_PI_2)).with_scale(Vec3::splat(2.0));
     *app.world_mut().get_mut::<Transform>(film).expect("a prop") = turn;
     app.update();
     app.update();

@@ -76,3 +76,42 @@ impl FilmState {
         hasher.finalize().to_hex().to_string()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{film::FilmMesh, settings::CoatingSettings};
+
+    #[test]
+    fn every_field_of_stains_counts() {
+        let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]]).unwrap();
+        let film = FilmState::from_mesh(mesh, &CoatingSettings::default(), 1, 100);
+        let changes: [fn(&mut FilmState); 16] = [
+            |film| film.stains.film.wet[0] = 0.5,
+            |film| film.stains.film.stained[1] = 0.5,
+            |film| film.stains.film.dust[2] = 0.5,
+            |film| film.stains.film.moisture[0] = 0.5,
+            |film| film.stains.metal.wet[0] = 0.5,
+            |film| film.stains.metal.stained[1] = 0.5,
+            |film| film.stains.metal.dust[2] = 0.5,
+            |film| film.stains.metal.moisture[0] = 0.5,
+            |film| film.stains.corrosion[1] = 0.5,
+            |film| film.stains.exposure.rain = vec![0.5],
+            |film| film.stains.exposure.sun = vec![0.5],
+            |film| film.stains.sources[0] = RustSource::Present,
+            |film| film.stains.sources[0] = RustSource::Past,
+            |film| film.stains.budget.emitted = 0.5,
+            |film| film.stains.budget.dripped = 0.5,
+            |film| film.stains.streaks = Vec3::X,
+        ];
+        let mut digests = vec![film.digest()];
+        for change in changes {
+            let mut film = film.clone();
+            change(&mut film);
+            digests.push(film.digest());
+        }
+        digests.sort();
+        digests.dedup();
+        assert_eq!(digests.len(), 17);
+    }
+}
