@@ -156,8 +156,14 @@ fn still_and_dry_weather_is_no_weather() {
         film_state(&app, film).digest()
     };
     let expected = digest(|_| {});
-    assert_eq!(digest(|app| drop(app.insert_resource(CoatingWeather::default()))), expected);
-    assert_eq!(digest(|app| drop(app.insert_resource(CoatingGravity(Vec3::NEG_Y * 9.81)))), expected);
+    let explicit = digest(|app| {
+        app.insert_resource(CoatingWeather::default());
+    });
+    assert_eq!(explicit, expected);
+    let strong = digest(|app| {
+        app.insert_resource(CoatingGravity(Vec3::NEG_Y * 9.81));
+    });
+    assert_eq!(strong, expected, "gravity need not be of unit length");
 }
 
 #[test]
@@ -298,19 +304,11 @@ fn meshes_of_one_prop_shelter_each_other() {
     let mut app = app();
     app.insert_resource(RAIN);
     let (plate_mesh, other) = (add_mesh(&mut app, plate(10)), add_mesh(&mut app, plate(9)));
-    let spawn = |app: &mut App, coating: Option<Coating>| {
-        let root = app.world_mut().spawn((Transform::default(), Visibility::default())).id();
-        let below = app.world_mut().spawn((Mesh3d(plate_mesh.clone()), lying(), ChildOf(root))).id();
-        let above = lying().with_translation(Vec3::new(-0.5, 0.3, 0.0));
-        let above = app.world_mut().spawn((Mesh3d(other.clone()), above, ChildOf(root))).id();
-        // The upper plate is no part of the prop without a coating on the root.
-        match coating {
-            Some(coating) => app.world_mut().entity_mut(root).insert(coating),
-            None => app.world_mut().entity_mut(below).insert(quick_coating()),
-        };
-        (below, above)
-    };
-    let (below, above) = spawn(&mut app, Some(quick_coating()));
+    let world = app.world_mut();
+    let root = world.spawn((Transform::default(), Visibility::default(), quick_coating())).id();
+    let below = world.spawn((Mesh3d(plate_mesh), lying(), ChildOf(root))).id();
+    let place = lying().with_translation(Vec3::new(-0.5, 0.3, 0.0));
+    let above = world.spawn((Mesh3d(other), place, ChildOf(root))).id();
     wait_for_films(&mut app, 2);
     assert_eq!((rain_at(&app, below, 0.1), rain_at(&app, below, 0.9)), (0.0, 1.0));
     assert_eq!(*exposure(&app, above), Exposure::default());
@@ -318,7 +316,6 @@ fn meshes_of_one_prop_shelter_each_other() {
     app.insert_resource(RAIN);
     let (plate_mesh, other) = (add_mesh(&mut app, plate(10)), add_mesh(&mut app, plate(9)));
     let below = app.world_mut().spawn((Mesh3d(plate_mesh), lying(), quick_coating())).id();
-    let place = lying().with_translation(Vec3::new(-0.5, 0.3, 0.0));
     app.world_mut().spawn((Mesh3d(other), place, quick_coating()));
     wait_for_films(&mut app, 2);
     assert_eq!(*exposure(&app, below), Exposure::default(), "other props do not shelter it unless they are marked");
@@ -330,8 +327,7 @@ fn shelters_that_cannot_be_read_are_passed_over() {
     app.insert_resource(RAIN);
     let mut mesh = Plane3d::new(Vec3::Y, Vec2::splat(9.0)).mesh().build();
     mesh.asset_usage = RenderAssetUsages::RENDER_WORLD;
-    let extracted = mesh.take_gpu_data().expect("a mesh");
-    drop(extracted);
+    mesh.take_gpu_data().expect("the data");
     let handle = add_mesh(&mut app, mesh);
     app.world_mut().spawn((Mesh3d(handle), Transform::from_xyz(0.0, 1.0, 0.0), RainShelter));
     let film = spawn_lying(&mut app, 6, quick_coating());

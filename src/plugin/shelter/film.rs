@@ -40,7 +40,7 @@ pub(crate) struct FilmShelter {
 
 /// All that goes into a cast, exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seen {
+pub(crate) struct Seen {
     pub revision: u64,
     pub place: Affine3A,
     pub falls: [Vec3; 2],
