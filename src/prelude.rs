@@ -5,7 +5,7 @@ pub use crate::{
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
         CoatingStep, CoatingSystems, CoatingWeather, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack,
-        MetalLook, PieceFallen, SettingsSource,
+        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter,
     },
     settings::CoatingSettings,
     sim::FilmClock,

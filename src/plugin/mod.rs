@@ -10,6 +10,7 @@ mod error;
 mod messages;
 mod report;
 mod schedule;
+mod shelter;
 mod step;
 mod weather;
 
@@ -35,6 +36,7 @@ pub(crate) use diagnostics::CoatingTimings;
 pub use error::{CoatingError, CoatingFault};
 pub use messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen};
 pub use schedule::{CoatingStep, CoatingSystems};
+pub use shelter::{RainShelter, Shelter};
 pub use weather::CoatingWeather;
 
 use crate::CoatingSettingsPlugin;

@@ -63,6 +63,12 @@ impl CoatingWeather {
         (Self { wind, gusts, rain, sun }, faults)
     }
 
+    /// Whether there is rain or sun.
+    pub(crate) fn reaches_anything(&self) -> bool {
+        let (weather, _) = self.checked();
+        weather.rain != Vec3::ZERO || weather.sun != Vec3::ZERO
+    }
+
     /// What works on a film that is turned by `transform`: gravity and the weather in its space, which has the
     /// world scale applied, so that only the rotation counts.
     pub(crate) fn environment(&self, gravity: CoatingGravity, transform: &GlobalTransform) -> Environment {

@@ -22,8 +22,9 @@ use super::{
 };
 use crate::{
     plugin::{
-        CoatedBy, Coating, CoatingFault, CoatingGravity, CoatingWeather, SettingsSource,
+        CoatedBy, Coating, CoatingFault, CoatingGravity, CoatingWeather, SettingsSource, Shelter,
         components::{AwaitingFilm, FilmSlot},
+        shelter::ShelterScene,
     },
     settings::CoatingSettings,
 };
@@ -41,7 +42,7 @@ pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Quer
         let Some(coating) = world.get::<Coating>(root) else { continue };
         let (film, slots) = group_of(world, entity, root);
         done.extend(&slots);
-        let order = match order_film(world, film, &slots, coating) {
+        let order = match order_film(world, film, root, &slots, coating) {
             Ok(None) => continue,
             Ok(Some(order)) => order,
             Err(fault) => {
@@ -76,7 +77,7 @@ fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>
     if group.len() < 2 || world.get::<CoatedBy>(parent).is_some() { alone } else { (parent, group) }
 }
 
-fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
+fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
     check_fields(coating)?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
     let mut meshes = Vec::with_capacity(slots.len());
@@ -100,13 +101,18 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
     }
     let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
     let weather = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
-    Ok(Some(FilmOrder {
-        meshes,
-        key: coating.key(),
-        settings,
-        scale,
-        environment: weather.environment(gravity, &transform),
-    }))
+    let environment = weather.environment(gravity, &transform);
+    let mut shelter = None;
+    if coating.shelter == Shelter::Scene
+        && weather.reaches_anything()
+        && let Some(scene) = world.get_resource::<ShelterScene>()
+    {
+        shelter = scene.order(&environment, &transform, root, slots);
+        if shelter.is_none() {
+            return Ok(None);
+        }
+    }
+    Ok(Some(FilmOrder { meshes, key: coating.key(), settings, scale, environment, shelter }))
 }
 
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {

@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-/// Rounding that a box test allows for, relative to the distance of the box.
+/// Rounding that a box test allows for, relative to the distance of the box and to coordinates.
 const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 /// What rays of one direction share, as prepared for the watertight test of Woop, Benthin and Wald, *Watertight
@@ -32,7 +32,9 @@ impl Ray {
 
     /// Whether the ray from `origin` meets a box, or comes close enough to do so but for rounding.
     pub(super) fn meets_box(&self, origin: Vec3, min: Vec3, max: Vec3) -> bool {
-        let (a, b) = ((min - origin) * self.inverse, (max - origin) * self.inverse);
+        // A ray along an axis may run exactly in a side of the box.
+        let margin = min.abs().max(max.abs()).max(origin.abs()) * ROUNDING + Vec3::splat(f32::MIN_POSITIVE);
+        let (a, b) = ((min - margin - origin) * self.inverse, (max + margin - origin) * self.inverse);
         let (enter, leave) = (a.min(b), a.max(b));
         let enter = enter - enter.abs() * ROUNDING;
         let leave = leave + leave.abs() * ROUNDING;

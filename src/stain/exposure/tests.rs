@@ -181,9 +181,13 @@ proptest! {
         direction in prop::array::uniform3(-3i8..4),
     ) {
         let point = |p: [i8; 3]| Vec3::from_array(p.map(f32::from)) * 0.37;
-        let triangles: Vec<[Vec3; 3]> = corners.iter().map(|t| t.map(point)).collect();
+        let mut triangles: Vec<[Vec3; 3]> = corners.iter().map(|t| t.map(point)).collect();
         prop_assume!(direction != [0; 3]);
-        let (origin, ray) = (point(origin), Ray::new(point(direction)));
+        let (origin, direction) = (point(origin), point(direction).normalize());
+        // Where a triangle is seen edge on is decided by rounding.
+        let seen = |[a, b, c]: &[Vec3; 3]| (*b - *a).cross(*c - *a).dot(direction).abs() > 1e-3;
+        triangles.retain(seen);
+        let ray = Ray::new(direction);
         let expected = triangles.iter().any(|t| ray.meets_triangle(origin, t));
         prop_assert_eq!(TriangleTree::new(triangles).is_met(&ray, origin), expected);
     }
