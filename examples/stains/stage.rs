@@ -124,7 +124,8 @@ fn build(
 fn shelter(commands: &mut Commands, meshes: &mut Assets<Mesh>, sheet: &Handle<StandardMaterial>, top: Vec3) {
     let mut slab = |size: Vec3, at: Vec3| {
         let mesh = meshes.add(Cuboid::from_size(size));
-        commands.spawn((Mesh3d(mesh), MeshMaterial3d(sheet.clone()), Transform::from_translation(top + at)));
+        let at = Transform::from_translation(top + at);
+        commands.spawn((Mesh3d(mesh), MeshMaterial3d(sheet.clone()), at, RainShelter));
     };
     let (height, depth) = (TALL + 0.2, TREAD + 0.5);
     slab(Vec3::new(WIDTH, 0.03, depth), Vec3::new(0.0, height, 0.1));
