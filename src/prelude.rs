@@ -5,8 +5,9 @@ pub use crate::{
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
         CoatingStep, CoatingSystems, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack, MetalLook,
-        PieceFallen, SettingsSource,
+        PieceFallen, SettingsSource, StainDisplay,
     },
     settings::CoatingSettings,
+    shown::look::StainLook,
     sim::FilmClock,
 };

@@ -21,11 +21,14 @@ use super::{
     build::{FilmBuild, FilmOrder, build_film},
     finish::refuse,
 };
+#[cfg(feature = "render")]
+use crate::plugin::{CoatedMaterial, StainDisplay};
 use crate::{
     plugin::{
         CoatedBy, Coating, CoatingFault, CoatingGravity, SettingsSource,
         components::{AwaitingFilm, FilmSlot},
     },
+    render::FilmPaint,
     settings::CoatingSettings,
     stain::Environment,
 };
@@ -84,7 +87,7 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
     let mut meshes = Vec::with_capacity(slots.len());
     for &slot in slots {
         let Ok(entity) = world.get_entity(slot) else { return Ok(None) };
-        check_components(world, entity)?;
+        check_components(world, entity, coating)?;
         #[cfg(feature = "render")]
         if !crate::render::is_material_ready(world, entity)? {
             return Ok(None);
@@ -107,6 +110,7 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
         settings,
         scale,
         environment: Environment::still((rotation.inverse() * gravity).normalize_or_zero()),
+        paint: FilmPaint::new(coating, Vec3::ZERO),
     }))
 }
 
@@ -140,9 +144,13 @@ pub(crate) fn loaded<'w, A: Asset>(world: &'w World, handle: &Handle<A>, failed:
     if world.get_resource::<AssetServer>().is_some_and(state) { Err(failed) } else { Ok(None) }
 }
 
-/// Refuses skinned and morphed meshes and custom materials. Types that are not part of every build of Bevy are known
+/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not part of every build of Bevy are known
 /// by their type paths.
-fn check_components(world: &World, entity: EntityRef) -> Result<(), CoatingFault> {
+fn check_components(
+    world: &World,
+    entity: EntityRef,
+    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
+) -> Result<(), CoatingFault> {
     if entity.contains::<SkinnedMesh>() {
         return Err(CoatingFault::Skinned);
     }
@@ -154,7 +162,9 @@ fn check_components(world: &World, entity: EntityRef) -> Result<(), CoatingFault
             return Err(CoatingFault::Morphed);
         }
         #[cfg(feature = "render")]
-        if let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
+        if coating.stain_display == StainDisplay::Material
+            && let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
+            && !entity.contains::<CoatedMaterial>()
             && material != "bevy_pbr::pbr_material::StandardMaterial>"
         {
             return Err(CoatingFault::CustomMaterial { material: material.trim_end_matches('>').into() });

@@ -13,7 +13,7 @@ use super::surface::surface_of;
 use crate::{
     film::build::{BuildError, BuildWarning},
     plugin::{CoatingFault, coating::FilmKey},
-    render::FilmDisplay,
+    render::{FilmDisplay, FilmPaint},
     settings::CoatingSettings,
     sim::FilmState,
     stain::Environment,
@@ -36,6 +36,7 @@ pub(super) struct FilmOrder {
     pub settings: Arc<CoatingSettings>,
     pub scale: Vec3,
     pub environment: Environment,
+    pub paint: FilmPaint,
 }
 
 /// A film that is ready to be put on its prop.
@@ -48,12 +49,12 @@ pub(crate) struct FilmReadiness {
 
 /// Builds, dresses and ages a film.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { meshes, key, settings, scale, environment } = order;
+    let FilmOrder { meshes, key, settings, scale, environment, paint } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
-    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale);
+    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale, paint.clone());
     film.age_to(key.start_age, settings, environment);
     display.prepare(&film);
     Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display }))
