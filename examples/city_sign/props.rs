@@ -27,14 +27,6 @@ enum Wear {
     Sheltered,
 }
 
-/// Darker than the default: the low sun warms it.
-const BARE_METAL: MetalLook = MetalLook {
-    steel: Color::srgb(0.24, 0.21, 0.19),
-    rust: Color::srgb(0.36, 0.19, 0.095),
-    metallic: 0.55,
-    roughness: 0.7,
-};
-
 /// A model of the scene.
 #[derive(Component, Clone)]
 struct Prop {
@@ -174,5 +166,5 @@ fn coating(options: &Options, wear: Wear) -> Coating {
         settings.adhesion.mean += 0.5;
         settings.deform.bend_limit *= 0.6;
     }
-    Coating::new(settings).with_metal(BARE_METAL)
+    Coating::new(settings)
 }
