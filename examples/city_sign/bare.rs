@@ -2,7 +2,7 @@
 //! any viewer opens, with the figures of the run.
 
 use crate::cli::Options;
-use crate::common::{self, BakeError, BakeOptions, Input, Progress, Resolution, Staged, Stopwatch};
+use crate::common::{self, BakeError, BakeOptions, Input, Progress, Resolution, Staged, StainOutput, Stopwatch};
 use crate::graphics;
 use bevy::prelude::AppExit;
 use std::path::Path;
@@ -46,7 +46,7 @@ fn age(options: &Options) -> Result<(), BakeError> {
     let folder = std::fs::canonicalize(&options.output).unwrap_or_else(|_| options.output.clone());
     let (aged, figures) = (folder.join("street_sign_aged.glb"), folder.join("street_sign_aged.json"));
     let mut files = Staged::default();
-    files.add(&aged, &common::aged_glb(&mut baked)?)?;
+    files.add(&aged, &common::aged_glb(&mut baked, StainOutput::default())?)?;
     files.add(&figures, baked.stats().to_json().as_bytes())?;
     files.commit()?;
     println!("{}", aged.display());
