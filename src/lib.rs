@@ -1,4 +1,4 @@
-//! Paint on metal that separates, cracks, curls and flakes off while a [Bevy](https://bevy.org) game runs.
+//! Paint on metal that separates, cracks, curls, flakes off and bleeds rust while a [Bevy](https://bevy.org) game runs.
 //!
 //! After A. Ishitobi, M. Nakayama, I. Fujishiro: *Visual Simulation of Crack and Bend Generation in Deteriorated Films
 //! Coated on Metal Objects: Combination of Static Fracture and Position-Based Deformation*, The Visual Computer, 2023
@@ -38,11 +38,13 @@
 //! # Concepts
 //!
 //! - The **film** is the paint: a half-edge mesh of near-equal triangles over the prop's surface ([`film`]), made in the
-//!   background from any mesh ([`film::build`]). Its parts (mesh, forces, constraints) are components on the prop's entity.
+//!   background from any mesh ([`film::build`]). Its parts (mesh, forces, constraints, stains) are components on the prop's entity.
 //! - **Age** is its time: 0 is fresh, 1 the end of the paper's reference run. Every rate is per unit age. A film ages in
 //!   whole steps, by default 1,000 a unit of age, and its state depends on their number alone: at any frame rate and on
 //!   any number of threads the same seed gives the same bits.
 //! - **Settings** steer the stages ([`settings`]): given in code, as a preset, or as a `.coating.ron` asset.
+//! - **Stains** follow ([`stain`]): rust that runs off below cracks, dust, and moisture where it rains, on the film and on
+//!   the metal under it.
 //! - What is **shown** is the film, wearing the prop's own surface, and where it has come off its back in primer and the
 //!   bare metal beneath ([`shown`]).
 //!

@@ -287,6 +287,13 @@ impl Topology {
         Fan { topology: self, first, next: first, left: self.origins.len() }
     }
 
+    /// The half-edges around an original vertex as they were at rest, torn or removed since or not, from `first` on:
+    /// the start of its [fan](Self::fan) at rest. They start at the vertex or at a duplicate of it.
+    #[inline]
+    pub fn rest_fan(&self, first: HalfEdgeId) -> impl Iterator<Item = HalfEdgeId> + '_ {
+        std::iter::successors(first.get(), move |h| self.rest_twin(h.previous()).filter(|&next| next != first))
+    }
+
     /// Whether the faces at `v` go all the way round it.
     #[inline]
     pub fn is_closed_fan(&self, v: VertexId) -> bool {

@@ -3,7 +3,7 @@
 use super::{FaceId, FilmMesh, HalfEdgeId, VertexId};
 
 /// A broken invariant: a bug, never the user's doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InvariantError {
     /// A per-element array does not have one entry an element.
@@ -48,6 +48,17 @@ pub enum InvariantError {
     /// The inverse mass of a vertex does not agree with whether it is attached.
     #[error("vertex {0:?} has the wrong inverse mass")]
     InverseMass(VertexId),
+    /// A stain is negative, above its range or not finite.
+    #[error("stain {0} of vertex {1:?} is out of range")]
+    Stain(&'static str, VertexId),
+    /// Rust given off is not what is wet, has stained or has left.
+    #[error("{emitted} of rust was given off, but {found} is accounted for")]
+    RustBudget {
+        /// Given off.
+        emitted: f64,
+        /// Wet, stained and dripped.
+        found: f64,
+    },
     /// A constraint is missing, doubled or refers to the wrong vertices.
     #[error("constraint of half-edge {0:?} is wrong")]
     Constraint(HalfEdgeId),

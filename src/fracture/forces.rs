@@ -113,13 +113,20 @@ impl FilmForces {
     }
 }
 
-/// Ages the forces by `dt`: adhesion falls (VC 5.1), contraction grows, and the bound edges of a face that
-/// has a torn one lose binding, once for each such face (VC 5.2).
-pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSettings, dt: f32) {
+/// Ages the forces by `dt`: adhesion falls (VC 5.1), faster where the film is wet, contraction grows, and the bound
+/// edges of a face that has a torn one lose binding, once for each such face (VC 5.2). `moisture` is that of each
+/// vertex, or empty where all is dry.
+pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSettings, moisture: &[f32], dt: f32) {
     forces.set_gamma(mesh, settings.bending.gamma);
     let fall = settings.adhesion.decay * dt;
     for adhesion in &mut forces.adhesion {
         *adhesion = (*adhesion - fall).max(0.0);
+    }
+    let wet_fall = fall * settings.moisture.adhesion;
+    if wet_fall > 0.0 {
+        for (adhesion, &moisture) in forces.adhesion.iter_mut().zip(moisture) {
+            *adhesion = (*adhesion - wet_fall * moisture).max(0.0);
+        }
     }
     let growth = settings.tearing.contraction_growth * dt;
     for contraction in &mut forces.contraction {

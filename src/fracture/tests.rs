@@ -131,11 +131,11 @@ fn adhesion_falls_at_its_rate_and_stops_at_zero() {
     let settings = CoatingSettings::default();
     let mut forces = uniform_forces(&mesh, &settings);
     forces.adhesion.fill(0.25);
-    age_forces(&mesh, &mut forces, &settings, 0.1);
+    age_forces(&mesh, &mut forces, &settings, &[], 0.1);
     assert!(forces.adhesion.iter().all(|a| (a - 0.15).abs() < 1e-6));
     assert!(forces.contraction.iter().all(|c| (c - 1.1).abs() < 1e-6));
     for _ in 0..5 {
-        age_forces(&mesh, &mut forces, &settings, 0.1);
+        age_forces(&mesh, &mut forces, &settings, &[], 0.1);
     }
     assert!(forces.adhesion.iter().all(|&a| a == 0.0));
 }
@@ -157,7 +157,7 @@ fn a_vertex_separates_once_at_the_age_of_the_closed_form() {
         let dt = 1e-3;
         let mut changes = FilmChanges::default();
         for step in 1..=4000 {
-            age_forces(&mesh, &mut forces, &settings, dt);
+            age_forces(&mesh, &mut forces, &settings, &[], dt);
             separate(&mesh, &mut forces, &settings, step as f32 * dt, &mut changes);
         }
         let found = forces.separated_age[centre.index()];
@@ -284,7 +284,7 @@ fn bound_edges_of_torn_faces_lose_binding_once_for_each() {
     let torn = edge_between(&film.mesh, 24, 25);
     film.bind(torn, 0.1);
     film.step();
-    age_forces(&film.mesh, &mut film.forces, &film.settings, 0.5);
+    age_forces(&film.mesh, &mut film.forces, &film.settings, &[], 0.5);
     let kept = (-1.3f64 * 0.5).exp() as f32;
     let twin = film.mesh.topology.rest_twin(torn).unwrap();
     for h in [torn.next(), torn.previous(), twin.next(), twin.previous()] {
@@ -301,7 +301,7 @@ fn bound_edges_of_torn_faces_lose_binding_once_for_each() {
     film.settings.tearing.alpha = 1.0;
     film.step();
     film.bind(twin.next(), 6.0);
-    age_forces(&film.mesh, &mut film.forces, &film.settings, 0.5);
+    age_forces(&film.mesh, &mut film.forces, &film.settings, &[], 0.5);
     assert!((film.forces.binding[twin.next().index()] - 6.0 * kept * kept).abs() < 1e-5);
 }
 
@@ -309,7 +309,7 @@ fn bound_edges_of_torn_faces_lose_binding_once_for_each() {
 fn without_weak_edges_nothing_tears_while_the_pull_is_below_binding() {
     let mut film = Tearing::on(lattice(10));
     for _ in 0..1000 {
-        age_forces(&film.mesh, &mut film.forces, &film.settings, 1e-3);
+        age_forces(&film.mesh, &mut film.forces, &film.settings, &[], 1e-3);
         assert_eq!(film.step(), []);
     }
 }

@@ -170,12 +170,16 @@ pub(super) fn rust(films: Stained, timings: ResMut<CoatingTimings>) {
 
 /// [`stage::dust`].
 pub(super) fn dust(films: Stained, timings: ResMut<CoatingTimings>) {
-    stain(films, timings, stage::dust);
+    stain(films, timings, |mesh, stains, clock, _, settings, environment| {
+        stage::dust(mesh, stains, clock, settings, environment);
+    });
 }
 
 /// [`stage::moisture`].
 pub(super) fn moisture(films: Stained, timings: ResMut<CoatingTimings>) {
-    stain(films, timings, stage::moisture);
+    stain(films, timings, |mesh, stains, clock, _, settings, environment| {
+        stage::moisture(mesh, stains, clock, settings, environment);
+    });
 }
 
 /// What the stages that stain the film work on.

@@ -92,7 +92,7 @@ macro_rules! with_stages {
             rust: RustSettings {
                 /// Rust that the lower end of a crack gives off per unit age and metre of that crack, in layers of
                 /// rust times metres. 0: nothing runs off. VC 6.1; found by trial.
-                emission: f32 = 0.2, closed(0.0, 1000.0);
+                emission: f32 = 0.08, closed(0.0, 1000.0);
                 /// Speed of run-off straight down, in metres per unit age; on a slope its sine of that. Found by
                 /// trial.
                 speed: f32 = 1.5, closed(0.0, 10_000.0);
@@ -137,9 +137,10 @@ macro_rules! with_stages {
                 emission: f32 = 1.0, closed(0.0, 100.0);
                 /// How much faster run-off travels where it is wet: 1 twice as fast.
                 travel: f32 = 0.5, closed(0.0, 100.0);
-                /// Rate at which water washes dust along and off where it is wet.
-                wash_dust: f32 = 4.0, closed(0.0, 10_000.0);
-                /// Rate at which water takes stains up again where it is wet. 0: stains never fade.
+                /// Speed at which full rain washes dust along and off where it is wet, in metres per unit age straight
+                /// down. 0: it washes none.
+                wash_dust: f32 = 2.0, closed(0.0, 10_000.0);
+                /// Rate at which full rain takes stains up again where it is wet. 0: stains never fade.
                 wash_rust: f32 = 0.0, closed(0.0, 10_000.0);
             }
         }

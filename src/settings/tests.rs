@@ -17,7 +17,11 @@ fn defaults_are_those_of_the_method() {
         tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,binding:6.0,binding_decay:1.3,\
         weak_probability:0.01,weak_factor:0.001,alpha:0.45,beta:0.2),\
         deform:(narrowing_rate:0.7,bend_limit:0.35,sweeps_per_age:10000.0),\
-        stripping:(fall_faces:6))";
+        stripping:(fall_faces:6),\
+        rust:(emission:0.08,speed:1.5,deposit:4.0,spread:0.05,into_cracks:0.5,corrosion:4.0),\
+        dust:(rate:1.2,height:0.4,direction:0.8,curvature:1.0),\
+        moisture:(wetting:60.0,drying:15.0,sun:1.0,crevice:0.25,adhesion:1.0,emission:1.0,travel:0.5,\
+        wash_dust:2.0,wash_rust:0.0))";
     assert_eq!(ron::to_string(&CoatingSettings::default()).unwrap(), expected);
 }
 

@@ -1,5 +1,7 @@
 //! The step counter of one film.
 
+use crate::stain::TICKS_PER_AGE;
+
 /// Steps per unit age when nothing else is set, as in the paper's reference run.
 pub const DEFAULT_STEPS_PER_AGE: u32 = 1000;
 
@@ -32,6 +34,19 @@ impl FilmClock {
     /// Age per step.
     pub fn dt(&self) -> f32 {
         1.0 / self.steps_per_age.max(1) as f32
+    }
+
+    /// Age since the last [tick](TICKS_PER_AGE) of the stains, if the last step completed one.
+    pub fn tick(&self) -> Option<f32> {
+        let (per_age, ticks_per_age) = (u128::from(self.steps_per_age.max(1)), u128::from(TICKS_PER_AGE));
+        let ticks = |steps: u64| u128::from(steps) * ticks_per_age / per_age;
+        let before = ticks(self.steps.checked_sub(1)?);
+        if ticks(self.steps) == before {
+            return None;
+        }
+        // The step that completed the tick before.
+        let last = (before * per_age).div_ceil(ticks_per_age);
+        Some((u128::from(self.steps) - last) as f32 * self.dt())
     }
 
     /// The first step at which the film is at least `age` old; 0 for negative ages and NaN.

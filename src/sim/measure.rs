@@ -204,13 +204,8 @@ impl Sums {
         let stains = &film.stains;
         self.budget.emitted += stains.budget.emitted;
         self.budget.dripped += stains.budget.dripped;
-        for layer in [&stains.film, &stains.metal] {
-            let amount = |field: &[f32]| -> f64 {
-                layer.areas.iter().zip(field).map(|(&area, &layers)| f64::from(area) * f64::from(layers)).sum()
-            };
-            self.wet += amount(&layer.wet);
-            self.stained += amount(&layer.stained);
-        }
+        self.wet += stains.wet_amount();
+        self.stained += stains.stained_amount();
         self.sources += stains.sources.iter().filter(|&&source| source == RustSource::Present).count() as u64;
         for v in film.mesh.topology.all_vertices().filter(|&v| film.mesh.topology.has_faces(v)) {
             self.dust += f64::from(stains.film.dust[v.index()]);

@@ -8,7 +8,7 @@ use crate::{
     film::{FilmChanges, FilmMesh, InvariantError, PieceScratch, VertexId, build::BuiltFilm},
     fracture::{self, FilmForces, TearScratch},
     settings::CoatingSettings,
-    stain::{Environment, StainFields},
+    stain::{self, Environment, StainFields},
 };
 
 /// How far below its plane a vertex may lie, in mean edges.
@@ -51,7 +51,7 @@ pub struct FilmState {
 pub mod stage {
     use super::{
         BendScratch, CoatingSettings, Environment, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh,
-        PieceScratch, StainFields, TearScratch, Vec3, deform, fracture,
+        PieceScratch, StainFields, TearScratch, Vec3, deform, fracture, stain,
     };
 
     /// Begins a step: forgets the last one's changes and counts.
@@ -69,8 +69,8 @@ pub mod stage {
         clock: &FilmClock,
         settings: &CoatingSettings,
     ) {
-        let _ = stains;
-        fracture::age_forces(mesh, forces, settings, clock.dt());
+        let moisture: &[f32] = if stains.is_damp() { &stains.film.moisture } else { &[] };
+        fracture::age_forces(mesh, forces, settings, moisture, clock.dt());
     }
 
     /// Separation (VC 5.1).
@@ -127,7 +127,7 @@ pub mod stage {
         deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, scratch);
     }
 
-    /// Rust comes out of cracks, runs off and stains; bare metal rusts (VC 6.1).
+    /// Stains follow fracture; rust comes out of cracks, runs off and stains; bare metal rusts (VC 6.1).
     pub fn rust(
         mesh: &FilmMesh,
         stains: &mut StainFields,
@@ -136,7 +136,10 @@ pub mod stage {
         settings: &CoatingSettings,
         environment: &Environment,
     ) {
-        let _ = (mesh, stains, clock, changes, settings, environment);
+        stain::follow_fracture(mesh, stains, changes, environment.gravity);
+        if let Some(dt) = clock.tick() {
+            stain::run_off(mesh, stains, settings, environment, dt);
+        }
     }
 
     /// Dust and soot settle (VC 6.2).
@@ -144,11 +147,12 @@ pub mod stage {
         mesh: &FilmMesh,
         stains: &mut StainFields,
         clock: &FilmClock,
-        changes: &FilmChanges,
         settings: &CoatingSettings,
         environment: &Environment,
     ) {
-        let _ = (mesh, stains, clock, changes, settings, environment);
+        if let Some(dt) = clock.tick() {
+            stain::settle_dust(mesh, stains, &settings.dust, environment, dt);
+        }
     }
 
     /// Rain wets, air and sun dry, and water washes.
@@ -156,11 +160,12 @@ pub mod stage {
         mesh: &FilmMesh,
         stains: &mut StainFields,
         clock: &FilmClock,
-        changes: &FilmChanges,
         settings: &CoatingSettings,
         environment: &Environment,
     ) {
-        let _ = (mesh, stains, clock, changes, settings, environment);
+        if let Some(dt) = clock.tick() {
+            stain::moisten(mesh, stains, &settings.moisture, environment, dt);
+        }
     }
 }
 
@@ -205,8 +210,8 @@ impl FilmState {
         });
         times.measure(Stage::Stains, || {
             stage::rust(mesh, stains, clock, changes, settings, environment);
-            stage::dust(mesh, stains, clock, changes, settings, environment);
-            stage::moisture(mesh, stains, clock, changes, settings, environment);
+            stage::dust(mesh, stains, clock, settings, environment);
+            stage::moisture(mesh, stains, clock, settings, environment);
         });
     }
 
@@ -217,7 +222,7 @@ impl FilmState {
         }
     }
 
-    /// Checks every invariant of the film, its forces and its constraints (the list at the end of the method:
+    /// Checks every invariant of the film, its forces, constraints and stains (the list at the end of the method:
     /// one fan a vertex, twins share their ends, torn implies separated, attached vertices have not moved,
     /// none below its plane, stripped faces are cut out, tips have one torn edge). For tests and debugging.
     ///
@@ -248,7 +253,8 @@ impl FilmState {
                 return Err(InvariantError::TornAttached(h));
             }
         }
-        self.constraints.validate(&self.mesh, |v| forces.is_attached(v))
+        self.constraints.validate(&self.mesh, |v| forces.is_attached(v))?;
+        self.stains.validate(&self.mesh)
     }
 
     /// Whether `v` lies inside and has exactly one torn edge: its open fan begins and ends at that edge.

@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::flow::Flow;
+use super::{copies::Copies, dust::DustRates, flow::Flow, sources::Catchments};
 use crate::film::FilmMesh;
 
 /// Fields of one surface: the film, one entry a vertex, duplicates included; or the metal, one entry an original
@@ -22,7 +22,7 @@ pub struct StainLayer {
 }
 
 impl StainLayer {
-    pub(super) fn new(areas: Vec<f32>) -> Self {
+    fn new(areas: Vec<f32>) -> Self {
         let clean = vec![0.0; areas.len()];
         Self { wet: clean.clone(), stained: clean.clone(), dust: clean.clone(), moisture: clean, areas }
     }
@@ -93,14 +93,24 @@ pub struct StainFields {
     pub streaks: Vec3,
     /// Counts what can be seen, so that display follows only then.
     pub revision: u32,
+    /// How open the metal lies at each original vertex: 0 under film that holds, 1 bare.
+    pub(super) openness: Vec<f32>,
+    /// Original vertices with any openness, in the order in which they opened.
+    pub(super) open: Vec<u32>,
+    pub(super) copies: Copies,
+    pub(super) catchments: Catchments,
     pub(super) flow: Flow,
+    pub(super) dust_rates: DustRates,
+    /// Whether anything is wet or may get so.
+    pub(super) damp: bool,
 }
 
 impl StainFields {
     /// Clean film and metal. `mesh` is the film at rest.
     pub fn new(mesh: &FilmMesh) -> Self {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
-        let mut areas = vec![0.0; topology.vertex_count()];
+        let vertices = topology.vertex_count();
+        let mut areas = vec![0.0; vertices];
         for f in topology.all_faces() {
             let third = geometry.rest_area_of(topology, f) / 3.0;
             for v in topology.corners(f) {
@@ -110,9 +120,18 @@ impl StainFields {
         Self {
             film: StainLayer::new(areas.clone()),
             metal: StainLayer::new(areas),
-            corrosion: vec![0.0; topology.vertex_count()],
-            sources: vec![RustSource::Never; topology.vertex_count()],
+            corrosion: vec![0.0; vertices],
+            sources: vec![RustSource::Never; vertices],
+            openness: vec![0.0; vertices],
+            copies: Copies::new(topology),
+            catchments: Catchments::new(vertices),
+            flow: Flow::new(vertices),
             ..Self::default()
         }
+    }
+
+    /// Whether anything is wet: effects of moisture need to be looked at only then.
+    pub fn is_damp(&self) -> bool {
+        self.damp
     }
 }

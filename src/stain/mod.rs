@@ -2,13 +2,40 @@
 //!
 //! | stage | function | source |
 //! |---|---|---|
-//! | rust | [`run_off`] | VC 6.1, figs. 9 and 10 |
+//! | rust | [`run_off`], after [`follow_fracture`] | VC 6.1, figs. 9 and 10 |
 //! | dust | [`settle_dust`] | VC 6.2, fig. 11 |
-//! | moisture | [`wet`] | beyond the paper |
+//! | moisture | [`moisten`] | beyond the paper |
+//!
+//! All directions and heights of run-off are those at rest. Stains change slowly, so they are advanced in ticks,
+//! [`TICKS_PER_AGE`] to a unit of age, however many steps that takes; only fracture is followed in every step. What a
+//! tick does is stable at any length: run-off is solved implicitly, vertex by vertex downhill, the rest by exponentials.
 
+mod copies;
+mod corrosion;
+mod dust;
 mod environment;
 mod fields;
 mod flow;
+mod follow;
+mod moisture;
+mod outflow;
+mod rust;
+mod shape;
+mod sources;
+#[cfg(test)]
+mod tests;
+mod validate;
 
+pub use dust::{DustFactors, dust_rate, settle_dust};
 pub use environment::Environment;
 pub use fields::{Exposure, RustBudget, RustSource, StainFields, StainLayer};
+pub use follow::follow_fracture;
+pub use moisture::moisten;
+pub use rust::run_off;
+
+/// How often per unit age stains are advanced, and display follows them. Films with longer steps advance them in each.
+pub const TICKS_PER_AGE: u64 = 100;
+
+/// Below this part of gravity along the surface nothing flows and nothing is a source: a horizontal plate must not
+/// bleed through rounding.
+const LEAST_PULL: f32 = 1e-3;

@@ -1,0 +1,63 @@
+//! The shape of the film around a vertex, as dust and moisture feel it.
+
+use core::f32::consts::PI;
+
+use bevy_math::Vec3;
+
+use crate::film::{FilmMesh, VertexId};
+
+/// Which way the film faces at a vertex, and how it is curved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shape {
+    /// Unit normal, or zero where the faces cancel out.
+    pub normal: Vec3,
+    /// Mean dihedral angle of the edges opposite the vertex, in radians: pi is flat, above is convex (VC 6.2's
+    /// curvature).
+    pub dihedral: f32,
+}
+
+impl Shape {
+    /// The shape at film vertex `v` as it is now.
+    pub fn now(mesh: &FilmMesh, v: VertexId) -> Self {
+        let (topology, geometry) = (&mesh.topology, &mesh.geometry);
+        let mut normal = Vec3::ZERO;
+        let mut mean = Mean::default();
+        for h in topology.fan(v) {
+            let [a, b, c] = topology.corners(h.face()).map(|v| geometry.positions[v.index()]);
+            normal += (b - a).cross(c - a);
+            mean.add(geometry.dihedral(topology, h.next()));
+        }
+        Self { normal: normal.normalize_or_zero(), dihedral: mean.finish() }
+    }
+
+    /// The shape at original vertex `v` at rest, before any of `fan` tore: `fan` holds the half-edges around it.
+    pub fn at_rest(mesh: &FilmMesh, v: VertexId, fan: impl Iterator<Item = crate::film::HalfEdgeId>) -> Self {
+        let mut mean = Mean::default();
+        for h in fan {
+            let opposite = h.next();
+            let inner = mesh.topology.rest_twin(opposite).is_some();
+            mean.add(inner.then(|| mesh.geometry.rest_dihedrals[opposite.index()]));
+        }
+        Self { normal: mesh.geometry.rest_normals[v.index()], dihedral: mean.finish() }
+    }
+}
+
+/// Mean of the angles there are; flat without any.
+#[derive(Default)]
+struct Mean {
+    sum: f32,
+    count: f32,
+}
+
+impl Mean {
+    fn add(&mut self, angle: Option<f32>) {
+        if let Some(angle) = angle {
+            self.sum += angle;
+            self.count += 1.0;
+        }
+    }
+
+    fn finish(&self) -> f32 {
+        if self.count > 0.0 { self.sum / self.count } else { PI }
+    }
+}

@@ -1,0 +1,79 @@
+//! Black stains by height, direction and curvature.
+
+use core::f32::consts::PI;
+
+use super::*;
+use crate::settings::DustSettings;
+
+#[test]
+fn dust_is_slower_where_higher_facing_down_and_convex() {
+    let settings = DustSettings::default();
+    let rate = |height, facing, dihedral| dust_rate(DustFactors { height, facing, dihedral }, &settings);
+    for step in 0..20 {
+        let t = step as f32 / 20.0;
+        let next = t + 0.05;
+        assert!(rate(next, 0.2, PI) < rate(t, 0.2, PI), "height {t}");
+        assert!(rate(0.3, 2.0 * next - 1.0, PI) < rate(0.3, 2.0 * t - 1.0, PI), "facing {t}");
+        assert!(rate(0.3, 0.2, 2.0 * PI * next) < rate(0.3, 0.2, 2.0 * PI * t), "curvature {t}");
+    }
+    // VC 6.2 with the constants of the method.
+    assert!((rate(1.0, 1.0, PI) - 1.2 * 0.6 * 0.2).abs() < 1e-6);
+    assert!((rate(0.0, -1.0, PI) - 1.2).abs() < 1e-6);
+}
+
+#[test]
+fn each_factor_can_be_seen_alone() {
+    let alone = |set: fn(&mut DustSettings)| {
+        let mut settings = DustSettings { height: 0.0, direction: 0.0, curvature: 0.0, ..DustSettings::default() };
+        set(&mut settings);
+        let rate = |height, facing, dihedral| dust_rate(DustFactors { height, facing, dihedral }, &settings);
+        let reference = rate(0.2, 0.1, 3.0);
+        [rate(0.9, 0.1, 3.0), rate(0.2, 0.8, 3.0), rate(0.2, 0.1, 3.5)].map(|rate| rate < reference)
+    };
+    assert_eq!(alone(|_| {}), [false; 3]);
+    assert_eq!(alone(|s| s.height = 1.0), [true, false, false]);
+    assert_eq!(alone(|s| s.direction = 1.0), [false, true, false]);
+    assert_eq!(alone(|s| s.curvature = 1.0), [false, false, true]);
+}
+
+#[test]
+fn dust_gathers_low_and_on_top_of_things() {
+    let (positions, triangles) = crate::film::tests::sphere(3);
+    let mesh = FilmMesh::new(positions, &triangles).unwrap();
+    let mut settings = held();
+    let aged = |settings: &CoatingSettings, environment: &Environment| {
+        let mut film = film_of(mesh.clone(), settings, 50);
+        film.age_to(1.0, settings, environment);
+        film.validate().unwrap();
+        film
+    };
+    settings.dust.height = 0.0;
+    let film = aged(&settings, &Environment::default());
+    let at = |film: &FilmState, place: Vec3| film.stains.film.dust[nearest(film, place).index()];
+    assert!(at(&film, Vec3::Y) > 1.5 * at(&film, Vec3::NEG_Y), "soot lies on top");
+    let turned = aged(&settings, &Environment::still(Vec3::Z));
+    assert!(at(&turned, Vec3::NEG_Z) > 1.5 * at(&turned, Vec3::Z), "and gravity says where that is");
+    (settings.dust.height, settings.dust.direction) = (1.0, 0.0);
+    let film = aged(&settings, &Environment::default());
+    assert!(at(&film, Vec3::NEG_Y) > 1.5 * at(&film, Vec3::Y), "or at the foot");
+}
+
+#[test]
+fn dust_follows_film_that_moves() {
+    let mut settings = held();
+    settings.deform.sweeps_per_age = 4000.0;
+    settings.dust.height = 0.0;
+    let mut film = plate(400, &settings, 100);
+    crack(&mut film, Vec3::new(-0.2, 0.0, 0.0), Vec3::new(0.2, 0.0, 0.0));
+    film.age_to(0.6, &settings, &Environment::default());
+    let dust = &film.stains.film.dust;
+    let (least, most) = dust.iter().fold((1.0f32, 0.0f32), |(low, high), &d| (low.min(d), high.max(d)));
+    assert!(most > 1.3 * least, "flakes face up and down: {least} to {most}");
+    let flat = {
+        settings.deform.sweeps_per_age = 0.0;
+        let mut film = plate(400, &settings, 100);
+        film.age_to(0.6, &settings, &Environment::default());
+        film.stains.film.dust.clone()
+    };
+    assert!(flat.iter().all(|d| (d - flat[0]).abs() < 1e-5), "a flat plate is dusty all alike");
+}
