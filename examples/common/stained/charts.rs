@@ -2,7 +2,7 @@
 
 use bevy_math::{Vec2, Vec3};
 
-use super::{coverage::count_overlaps, sets::Sets};
+use super::{boxes::SmallestBox, coverage::count_overlaps, sets::Sets};
 
 /// Cosine of how far a chart's triangles may lean from its axis: 50 degrees, which squeezes texels to 64 %.
 const LEAN: f32 = 0.643;
@@ -12,6 +12,10 @@ const CRUMB_LEAN: f32 = 0.423;
 const CRUMB: usize = 3;
 /// Cosine of the sharpest edge inside a chart: 60 degrees.
 const CREASE: f32 = 0.5;
+/// Share of its box that a chart should fill.
+const FULLNESS: f32 = 0.45;
+/// Boxes that are less than this share of the whole surface may be filled worse.
+const LARGE: f32 = 0.01;
 /// No neighbour, no chart.
 const NONE: u32 = u32::MAX;
 
@@ -51,11 +55,12 @@ pub fn charts(positions: &[[f32; 3]], indices: &[u32]) -> Vec<Chart> {
     let mut groups = faces.grow();
     faces.give_crumbs_away(&mut groups);
     let mut charts = Vec::new();
-    // Split what would fold over, such as a screw's thread, until nothing does: single triangles cannot.
+    let whole_area = faces.areas.iter().sum::<f32>() * 0.5;
+    // Halve what does not lie flat well, such as a screw's thread, until all does: single triangles do.
     groups.reverse();
     while let Some(group) = groups.pop() {
         let chart = Chart { axis: faces.axis(&group), triangles: group };
-        if faces.folds_over(&chart) {
+        if faces.is_unfit(&chart, whole_area) {
             groups.extend(faces.halves(&chart.triangles));
         } else {
             charts.push(chart);
@@ -162,9 +167,13 @@ impl<'a> Faces<'a> {
         largest.map_or(mean, |f| self.normals[f as usize].normalize_or(mean))
     }
 
-    fn folds_over(&self, chart: &Chart) -> bool {
+    /// Whether a chart lies on itself when it is laid flat, or wastes so much of its box that halves are better.
+    fn is_unfit(&self, chart: &Chart, whole_area: f32) -> bool {
         if chart.triangles.len() < 2 {
             return false;
+        }
+        if chart.triangles.iter().any(|&f| !self.faces(f, chart.axis, 0.0)) {
+            return true;
         }
         let [right, up] = chart.basis();
         let flat = |v: u32| {
@@ -173,11 +182,10 @@ impl<'a> Faces<'a> {
         };
         let corners = |&f: &u32| std::array::from_fn(|i| flat(self.indices[f as usize * 3 + i]));
         let triangles: Vec<[Vec2; 3]> = chart.triangles.iter().map(corners).collect();
-        if chart.triangles.iter().any(|&f| !self.faces(f, chart.axis, 0.0)) {
-            return true;
-        }
-        let (overlapping, _) = count_overlaps(&triangles);
-        overlapping > 0
+        let area: f32 = chart.triangles.iter().map(|&f| self.areas[f as usize] * 0.5).sum();
+        let around = SmallestBox::around(triangles.as_flattened()).area();
+        let sprawls = around * FULLNESS > area && around > whole_area * LARGE;
+        sprawls || count_overlaps(&triangles).0 > 0
     }
 
     /// Two halves of a group along its longest side, cut further into what hangs together.

@@ -9,6 +9,7 @@
 //!
 //! Everything is laid out as it is at rest, so a model's textures lie the same at any age of its flakes.
 
+mod boxes;
 mod charts;
 mod colors;
 mod coverage;

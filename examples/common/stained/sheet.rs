@@ -117,12 +117,20 @@ impl Sheet {
         });
 
         let mut normals = vec![[128, 128, 255]; side * side];
+        // Texels outside of their triangles repeat its border: right for colours, but not for their changes.
+        let mut inner = owners.clone();
         let relief = Relief { triangles: &triangles, owners: &owners, heights: &heights, side };
-        let mut bands: Vec<(usize, &mut [[u8; 3]])> = normals.chunks_mut(rows).enumerate().collect();
-        parallel::for_each(&mut bands, |(band, normals)| {
-            for (i, normal) in normals.iter_mut().enumerate() {
-                if let Some(found) = relief.normal(*band * rows + i) {
-                    *normal = (found * 0.5 + 0.5).to_array().map(to_byte);
+        let mut bands: Vec<(usize, &mut [[u8; 3]], &mut [u32])> = normals
+            .chunks_mut(rows)
+            .zip(inner.chunks_mut(rows))
+            .enumerate()
+            .map(|(i, (normals, inner))| (i * rows, normals, inner))
+            .collect();
+        parallel::for_each(&mut bands, |(first, normals, inner)| {
+            for (i, (normal, owner)) in normals.iter_mut().zip(inner.iter_mut()).enumerate() {
+                match relief.normal(*first + i) {
+                    Some(found) => *normal = (found * 0.5 + 0.5).to_array().map(to_byte),
+                    None => *owner = NOBODY,
                 }
             }
         });
@@ -130,7 +138,8 @@ impl Sheet {
         let sources = dilate::sources(&owners, side, padding);
         dilate::fill(&mut base, &owners, &sources);
         dilate::fill(&mut surface, &owners, &sources);
-        dilate::fill(&mut normals, &owners, &sources);
+        let sources = dilate::sources(&inner, side, padding + 1);
+        dilate::fill(&mut normals, &inner, &sources);
         let transparent = patches.iter().any(|p| matches!(p.ground, Ground::Film(finish) if finish.transparent));
         Self { size, base, surface, normals, transparent }
     }
@@ -228,10 +237,13 @@ struct Relief<'a> {
 }
 
 impl Relief<'_> {
-    /// Unit normal of a texel in the frame of the texture.
+    /// Unit normal of a texel in the frame of the texture; `None` for a texel whose middle lies in no triangle.
     fn normal(&self, at: usize) -> Option<Vec3> {
         let triangle = self.triangles.get(self.owners[at] as usize)?;
         let (x, y) = (at % self.side, at / self.side);
+        if nearest(&triangle.texels, texel(x, y)).1 > 0.0 {
+            return None;
+        }
         let left = (x > 0).then(|| at - 1);
         let right = (x + 1 < self.side).then(|| at + 1);
         let above = (y > 0).then(|| at - self.side);

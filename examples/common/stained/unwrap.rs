@@ -4,12 +4,10 @@ use bevy_coating::shown::ShownPart;
 use bevy_math::{UVec2, Vec2, Vec3};
 
 use super::{
+    boxes::SmallestBox,
     charts::{Chart, charts},
     pack::pack,
 };
-
-/// Turns of a chart that are tried for the smallest box, over a quarter turn.
-const TURNS: u32 = 16;
 
 /// A part whose vertices were split where charts end.
 #[derive(Clone, Debug, Default)]
@@ -64,19 +62,7 @@ impl Flat {
             .map(|(_, v)| Vec3::from(part.rest[v as usize]))
             .map(|p| Vec2::new(p.dot(right), -p.dot(up)))
             .collect();
-        let mut best = (f32::INFINITY, Vec2::X, Vec2::ZERO, Vec2::ZERO);
-        for turn in 0..TURNS {
-            let turn = Vec2::from_angle(turn as f32 * std::f32::consts::FRAC_PI_2 / TURNS as f32);
-            let turned = points.iter().map(|p| turn.rotate(*p));
-            let bounds = turned.map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)));
-            let (low, high) = bounds.unwrap_or_default();
-            let area = (high - low).element_product();
-            // Turning must pay: upright streaks are drawn with fewer texels.
-            if area < best.0 * 0.98 {
-                best = (area, turn, low, high - low);
-            }
-        }
-        let (_, turn, low, size) = best;
+        let SmallestBox { turn, low, size } = SmallestBox::around(&points);
         Self {
             right: (right * turn.x + up * turn.y) * density,
             down: (right * turn.y - up * turn.x) * density,
