@@ -4,8 +4,8 @@ pub use crate::{
     film::build::{BuildWarning, FilmResolution},
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
-        CoatingStep, CoatingSystems, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack, MetalLook,
-        PieceFallen, SettingsSource,
+        CoatingStep, CoatingSystems, CoatingWeather, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack,
+        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter,
     },
     settings::CoatingSettings,
     sim::FilmClock,

@@ -10,7 +10,9 @@ mod error;
 mod messages;
 mod report;
 mod schedule;
+mod shelter;
 mod step;
+mod weather;
 
 use bevy::{
     app::{App, Plugin, Update},
@@ -34,6 +36,8 @@ pub(crate) use diagnostics::CoatingTimings;
 pub use error::{CoatingError, CoatingFault};
 pub use messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen};
 pub use schedule::{CoatingStep, CoatingSystems};
+pub use shelter::{RainShelter, Shelter};
+pub use weather::CoatingWeather;
 
 use crate::CoatingSettingsPlugin;
 
@@ -76,6 +80,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<CoatingClock>()
             .init_resource::<CoatingBudget>()
             .init_resource::<CoatingGravity>()
+            .init_resource::<CoatingWeather>()
             .init_resource::<CoatingStatus>()
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
@@ -84,7 +89,7 @@ impl Plugin for CoatingWeatheringPlugin {
         diagnostics::add_diagnostics(app);
         schedule::add_step_schedule(app);
         attach::add_attachment(app);
-        app.add_systems(self.schedule, drive::advance.in_set(CoatingAdvance));
+        app.add_systems(self.schedule, (weather::check_weather, drive::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(crate::render::FilmDisplayPlugin);
     }
 }
