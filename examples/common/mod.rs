@@ -32,6 +32,7 @@ mod obj;
 mod output;
 mod parallel;
 mod props;
+mod shelter;
 mod stained;
 mod stats;
 mod stopwatch;

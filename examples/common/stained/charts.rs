@@ -8,12 +8,14 @@ use super::{boxes::SmallestBox, coverage::count_overlaps, sets::Sets};
 const LEAN: f32 = 0.643;
 /// The same for crumbs that are given to a chart beside them: 65 degrees.
 const CRUMB_LEAN: f32 = 0.423;
+/// How often a chart's axis follows its growth.
+const RECENTRED: u32 = 4;
 /// Charts of so many triangles are crumbs.
 const CRUMB: usize = 3;
 /// Cosine of the sharpest edge inside a chart: 60 degrees.
 const CREASE: f32 = 0.5;
 /// Share of its box that a chart should fill.
-const FULLNESS: f32 = 0.45;
+const FULLNESS: f32 = 0.4;
 /// Boxes that are less than this share of the whole surface may be filled worse.
 const LARGE: f32 = 0.01;
 /// No neighbour, no chart.
@@ -96,29 +98,42 @@ impl<'a> Faces<'a> {
     /// Grows charts from their first triangles.
     fn grow(&self) -> Vec<Vec<u32>> {
         let mut taken = vec![false; self.normals.len()];
-        let (mut groups, mut stack) = (Vec::new(), Vec::new());
+        let mut groups = Vec::new();
         for seed in 0..self.normals.len() as u32 {
             if taken[seed as usize] {
                 continue;
             }
-            let axis = self.axis_around(seed);
-            let mut group = Vec::new();
-            taken[seed as usize] = true;
-            stack.push(seed);
-            while let Some(f) = stack.pop() {
-                group.push(f);
-                for g in self.neighbours(f) {
-                    let smooth = self.faces(g, self.normals[f as usize], CREASE) || self.areas[f as usize] == 0.0;
-                    if !taken[g as usize] && smooth && self.faces(g, axis, LEAN) {
-                        taken[g as usize] = true;
-                        stack.push(g);
-                    }
+            let mut group = self.grow_along(self.axis_around(seed), seed, &mut taken);
+            // A chart grows away from those before it, so its axis follows, and it can grow further.
+            for _ in 0..RECENTRED {
+                let axis = self.axis(&group);
+                if !self.faces(seed, axis, LEAN) {
+                    break;
                 }
+                group.iter().for_each(|&f| taken[f as usize] = false);
+                group = self.grow_along(axis, seed, &mut taken);
             }
             group.sort_unstable();
             groups.push(group);
         }
         groups
+    }
+
+    /// Takes what hangs smoothly together with `seed` and faces `axis`.
+    fn grow_along(&self, axis: Vec3, seed: u32, taken: &mut [bool]) -> Vec<u32> {
+        let (mut group, mut next) = (vec![seed], 0);
+        taken[seed as usize] = true;
+        while let Some(&f) = group.get(next) {
+            next += 1;
+            for g in self.neighbours(f) {
+                let smooth = self.areas[f as usize] == 0.0 || self.faces(g, self.normals[f as usize], CREASE);
+                if !taken[g as usize] && smooth && self.faces(g, axis, LEAN) {
+                    taken[g as usize] = true;
+                    group.push(g);
+                }
+            }
+        }
+        group
     }
 
     /// Axis of a chart that grows from `seed`: the mean normal of it and what lies smoothly beside it.

@@ -23,6 +23,8 @@ mod layout;
 mod pack;
 mod sets;
 mod sheet;
+#[cfg(test)]
+mod tests;
 mod texture;
 mod unique;
 mod unwrap;
