@@ -37,7 +37,8 @@ fn png(size: u32, color: png::ColorType, bytes: &[u8]) -> Vec<u8> {
     let mut encoder = png::Encoder::new(&mut file, size, size);
     encoder.set_color(color);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Balanced);
+    // A tenth larger than balanced, in a fifth of the time.
+    encoder.set_compression(png::Compression::Fast);
     // The sizes fit, and writing to memory cannot fail.
     let _ = encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes));
     file

@@ -254,6 +254,23 @@ mod tests {
         assert_eq!(at(Wrap::Mirror), [0, 3, 2]);
     }
 
+    /// 16 by 8 texels: the left half red, the right half blue.
+    const JPEG: &str = "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgICAgMCAgIDAwMDBAYEBAQEBAgGBgUGCQgKCgkICQkKDA8MCgsOCwkJDRENDg8Q\
+        EBEQCgwSExIQEw8QEBD/2wBDAQMDAwQDBAgEBAgQCwkLEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQ\
+        EBD/wAARCAAIABADAREAAhEBAxEB/8QAFAABAAAAAAAAAAAAAAAAAAAAB//EABQQAQAAAAAAAAAAAAAAAAAAAAD/xAAWAQEBAQAAAAAAAAAAAAAA\
+        AAAIBwn/xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oADAMBAAIRAxEAPwAUTc1Re0dAd//Z";
+
+    #[test]
+    fn jpeg_images_are_read() {
+        let bytes = crate::common::base64::decode(JPEG).expect("base64");
+        let image = Image { mime_type: "image/jpeg".into(), bytes, ..Image::default() };
+        let texture = Texture::decode(&image, true).expect("an image");
+        assert_eq!(texture.size(), UVec2::new(16, 8));
+        let texel = |x: usize| texture.levels[0].texels[4 * 16 + x];
+        let near = |a: [u8; 4], b: [u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 6);
+        assert!(near(texel(2), [200, 40, 40, 255]) && near(texel(13), [40, 40, 200, 255]), "{:?}", texel(2));
+    }
+
     #[test]
     fn what_is_no_image_is_an_error() {
         for (mime_type, bytes) in [
