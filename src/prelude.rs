@@ -5,8 +5,9 @@ pub use crate::{
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
         CoatingStep, CoatingSystems, CoatingWeather, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack,
-        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter,
+        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter, StainDisplay,
     },
     settings::CoatingSettings,
+    shown::look::StainLook,
     sim::FilmClock,
 };

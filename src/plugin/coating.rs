@@ -2,15 +2,16 @@
 
 use bevy::{
     asset::Handle,
-    color::Color,
+    color::{Color, ColorToComponents},
     ecs::{component::Component, reflect::ReflectComponent},
-    reflect::{impl_reflect, prelude::*},
+    reflect::prelude::*,
 };
 
-use super::Shelter;
+use super::{Shelter, StainDisplay};
 use crate::{
     film::build::FilmResolution,
     settings::{CoatingSettings, SettingsError},
+    shown::look::StainLook,
     sim::DEFAULT_STEPS_PER_AGE,
 };
 
@@ -51,6 +52,10 @@ pub struct Coating {
     pub primer: Color,
     /// Look of the metal under the paint.
     pub metal: MetalLook,
+    /// How stains are shown on the paint. Default: with a material of their own.
+    pub stain_display: StainDisplay,
+    /// Colours and strengths of stains.
+    pub stain_look: StainLook,
 }
 
 impl Default for Coating {
@@ -66,6 +71,8 @@ impl Default for Coating {
             shelter: Shelter::default(),
             primer: Color::srgb(0.55, 0.52, 0.47),
             metal: MetalLook::default(),
+            stain_display: StainDisplay::default(),
+            stain_look: StainLook::default(),
         }
     }
 }
@@ -129,6 +136,27 @@ impl Coating {
         Self { metal, ..self }
     }
 
+    /// Sets how stains are shown on the paint.
+    pub fn with_stain_display(self, stain_display: StainDisplay) -> Self {
+        Self { stain_display, ..self }
+    }
+
+    /// Sets the colours and strengths of stains.
+    pub fn with_stain_look(self, stain_look: StainLook) -> Self {
+        Self { stain_look, ..self }
+    }
+
+    /// The look of all stains: [`stain_look`](Self::stain_look) with the metal of [`metal`](Self::metal).
+    pub fn look(&self) -> StainLook {
+        StainLook {
+            steel: self.metal.steel.to_linear().to_vec3(),
+            steel_metallic: self.metal.metallic,
+            steel_roughness: self.metal.roughness,
+            rust: self.metal.rust.to_linear().to_vec3(),
+            ..self.stain_look.clone()
+        }
+    }
+
     /// What a film must be built anew for when it changes.
     pub(crate) fn key(&self) -> FilmKey {
         FilmKey {
@@ -178,37 +206,28 @@ impl From<Handle<CoatingSettings>> for SettingsSource {
     }
 }
 
-/// Look of the metal under the paint. Rust is spread over it in patches drawn by the coating's seed.
+/// Look of the metal under the paint: what it is made of, and what it rusts to.
 #[derive(Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Default, Debug, Clone, PartialEq)]
 pub struct MetalLook {
-    /// Colour of the metal where it has rusted least. Default: dark steel.
+    /// Colour of the metal where it has not rusted. Default: bright steel.
     pub steel: Color,
-    /// Colour of the metal where it has rusted most. Default: dark orange-brown.
+    /// Colour of the metal where it has rusted most. Default: orange-brown.
     pub rust: Color,
-    /// How metallic it reflects: 0 to 1, default 0.6. Bare metal looks dull without an environment map.
+    /// How metallic it reflects where it has not rusted: 0 to 1, default 0.9. Bare metal looks dull without an
+    /// environment map.
     pub metallic: f32,
-    /// Perceptual roughness: 0.089 to 1, default 0.75.
+    /// Perceptual roughness where it has not rusted: 0.089 to 1, default 0.42.
     pub roughness: f32,
 }
 
 impl Default for MetalLook {
     fn default() -> Self {
         Self {
-            steel: Color::srgb(0.24, 0.22, 0.21),
-            rust: Color::srgb(0.56, 0.27, 0.11),
-            metallic: 0.6,
-            roughness: 0.75,
+            steel: Color::srgb(0.67, 0.66, 0.65),
+            rust: Color::srgb(0.585, 0.323, 0.143),
+            metallic: 0.9,
+            roughness: 0.42,
         }
     }
 }
-
-impl_reflect!(
-    #[reflect(Debug, Clone, PartialEq)]
-    #[type_path = "bevy_coating::film::build"]
-    enum FilmResolution {
-        Triangles(u32),
-        EdgeLength(f32),
-        Keep,
-    }
-);

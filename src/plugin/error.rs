@@ -29,8 +29,11 @@ pub enum CoatingFault {
         "its material is alpha-blended; use `AlphaMode::Opaque` or `AlphaMode::Mask`, or coat the other parts only"
     )]
     AlphaBlended,
-    /// The material is not `StandardMaterial`.
-    #[error("it has material type {material}; only `StandardMaterial` can be coated")]
+    /// The material is not `StandardMaterial`, and stains are to be shown by a material.
+    #[error(
+        "it has material type {material}; only `StandardMaterial` can be replaced by one with stains: set `Coating::stain_display` to \
+         `StainDisplay::VertexColor` or `StainDisplay::None`, which leave the material alone"
+    )]
     CustomMaterial {
         /// Type path of the material component.
         material: String,

@@ -8,6 +8,7 @@ pub mod diagnostics;
 mod drive;
 mod error;
 mod messages;
+mod reflect;
 mod report;
 mod schedule;
 mod shelter;
@@ -22,16 +23,18 @@ use bevy::{
     },
 };
 
-pub use crate::render::CoatingDisplay;
+pub use crate::render::{ATTRIBUTE_REST, ATTRIBUTE_STAINS, CoatingDisplay, StainDisplay};
+#[cfg(feature = "render")]
+pub use crate::render::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 pub use attach::CoatingAttach;
 pub(crate) use attach::SlotAttributes;
 #[cfg(feature = "render")]
 pub(crate) use attach::loaded;
 pub use clock::{CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, DEFAULT_AGE_PER_SECOND};
 pub use coating::{Coating, DEFAULT_TRIANGLES, MetalLook, SettingsSource};
-#[cfg(feature = "render")]
-pub(crate) use components::FilmSource;
 pub use components::{CoatedBy, CoatingPart, FilmPace, FilmRevision};
+#[cfg(feature = "render")]
+pub(crate) use components::{FilmSlot, FilmSource};
 pub(crate) use diagnostics::CoatingTimings;
 pub use error::{CoatingError, CoatingFault};
 pub use messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen};

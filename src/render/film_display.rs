@@ -11,7 +11,11 @@ use bevy::{
     mesh::Mesh,
 };
 
-use super::mesh::{PartSpace, move_part, new_mesh, write_part};
+use super::{
+    StainDisplay,
+    mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
+    paint::FilmPaint,
+};
 use crate::{
     film::{
         FilmMesh,
@@ -19,7 +23,7 @@ use crate::{
     },
     fracture::FilmForces,
     plugin::{CoatingTimings, FilmRevision, SlotAttributes},
-    shown::{ShownChange, ShownFilm},
+    shown::{ShownChange, ShownFilm, look::StainPart},
     sim::{FilmState, Stage},
     stain::StainFields,
 };
@@ -29,6 +33,12 @@ use crate::{
 pub(crate) struct FilmDisplay {
     pub(super) shown: ShownFilm,
     pub(super) space: PartSpace,
+    pub(super) paint: FilmPaint,
+    /// Mean distance between the film's vertices, in metres.
+    pub(super) edge: f32,
+    /// Whether the materials do not show `paint` yet.
+    #[cfg(feature = "render")]
+    pub(super) materials_outdated: bool,
     slots: Vec<DisplaySlot>,
     /// Revision that `shown` is up to date with.
     seen: FilmRevision,
@@ -57,11 +67,16 @@ impl FilmDisplay {
         built: &BuiltFilm,
         slots: Vec<SlotAttributes>,
         scale: Vec3,
+        paint: FilmPaint,
     ) -> Self {
         let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
         Self {
             shown: ShownFilm::new(built, surface, &film.mesh, &film.forces, &film.stains),
             space: PartSpace::new(scale),
+            paint,
+            edge: film.mesh.geometry.mean_edge,
+            #[cfg(feature = "render")]
+            materials_outdated: false,
             slots: slots.into_iter().map(empty).collect(),
             seen: FilmRevision::default(),
             pending: None,
@@ -80,8 +95,19 @@ impl FilmDisplay {
             // A primitive of which nothing was left after cleaning keeps its mesh.
             let Some(part) = self.shown.front(slot) else { continue };
             let mut mesh = new_mesh();
-            write_part(&mut mesh, part, display.attributes, self.space);
+            let stains = front_writer(&self.paint, self.edge);
+            write_part(&mut mesh, part, display.attributes, self.space, stains);
             display.mesh = Some(mesh);
+        }
+    }
+
+    /// Notes that `paint` is not shown yet, and what has to be written for it.
+    pub(super) fn repainted(&mut self, change: ShownChange) {
+        add(&mut self.pending, change);
+        #[cfg(feature = "render")]
+        {
+            add(&mut self.pending_parts, change);
+            self.materials_outdated = true;
         }
     }
 
@@ -114,6 +140,16 @@ pub(super) fn follow_films(
     });
 }
 
+/// How the stains of fronts get into their meshes.
+fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
+    let carrier = match paint.display {
+        StainDisplay::Material => StainCarrier::Attributes,
+        StainDisplay::VertexColor => StainCarrier::Colors,
+        StainDisplay::None => StainCarrier::Nothing,
+    };
+    StainWriter { part: StainPart::Film, paint, carrier, edge }
+}
+
 fn add(pending: &mut Option<ShownChange>, change: ShownChange) {
     let pending = pending.get_or_insert_default();
     pending.topology |= change.topology;
@@ -134,10 +170,14 @@ pub(super) fn write_fronts(
             for (slot, front) in display.slots.iter().enumerate() {
                 let Some(part) = display.shown.front(slot) else { continue };
                 let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
+                let stains = front_writer(&display.paint, display.edge);
                 if change.topology {
-                    write_part(&mut mesh, part, front.attributes, display.space);
-                } else {
-                    move_part(&mut mesh, part, display.space);
+                    write_part(&mut mesh, part, front.attributes, display.space, stains);
+                    continue;
+                }
+                move_part(&mut mesh, part, display.space);
+                if change.stains {
+                    write_stains(&mut mesh, part, stains);
                 }
             }
         }

@@ -3,10 +3,45 @@
 use bevy::{
     asset::RenderAssetUsages,
     math::Vec3,
-    mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues},
+    mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues, VertexFormat},
 };
 
-use crate::{plugin::SlotAttributes, shown::ShownPart};
+use super::paint::FilmPaint;
+use crate::{
+    plugin::SlotAttributes,
+    shown::{ShownPart, look::StainPart},
+};
+
+/// Stains of each vertex of a film's meshes: layers of rust, dust, moisture, and how far the metal has rusted there
+/// ([`ShownPart::stains`]). Present while they are shown by a material.
+pub const ATTRIBUTE_STAINS: MeshVertexAttribute =
+    MeshVertexAttribute::new("Coating_Stains", 0x636f_6174_7374_6169, VertexFormat::Float32x4);
+
+/// Where each vertex of a film's meshes lies at rest, in metres in the film's space ([`ShownPart::rest`]). Present while
+/// stains are shown by a material.
+pub const ATTRIBUTE_REST: MeshVertexAttribute =
+    MeshVertexAttribute::new("Coating_Rest", 0x636f_6174_7265_7374, VertexFormat::Float32x3);
+
+/// What the stains of a part's mesh go into.
+#[derive(Clone, Copy)]
+pub(super) enum StainCarrier {
+    /// [`ATTRIBUTE_STAINS`] and [`ATTRIBUTE_REST`].
+    Attributes,
+    /// The vertices' colours.
+    Colors,
+    /// Nothing.
+    Nothing,
+}
+
+/// How a part's stains get into its mesh.
+#[derive(Clone, Copy)]
+pub(super) struct StainWriter<'a> {
+    pub part: StainPart,
+    pub paint: &'a FilmPaint,
+    pub carrier: StainCarrier,
+    /// Mean distance between vertices, in metres.
+    pub edge: f32,
+}
 
 /// Turns arrays in the film's space, which has the prop's world scale applied, into those of the prop's mesh.
 #[derive(Clone, Copy, Debug)]
@@ -59,15 +94,17 @@ pub(super) fn new_mesh() -> Mesh {
     Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::MAIN_WORLD | RenderAssetUsages::RENDER_WORLD)
 }
 
-/// Writes a whole part. Of the attributes only those that the prop's own mesh has are written, and normals always.
-/// Where nothing is left, one triangle without area stands in: a mesh must not be empty.
-pub(super) fn write_part(mesh: &mut Mesh, part: &ShownPart, attributes: SlotAttributes, space: PartSpace) {
+/// Writes a whole part. Of the attributes only those that the prop's own mesh has are written, normals always, and what
+/// carries the stains. Where nothing is left, one triangle without area stands in: a mesh must not be empty.
+pub(super) fn write_part(
+    mesh: &mut Mesh,
+    part: &ShownPart,
+    attributes: SlotAttributes,
+    space: PartSpace,
+    stains: StainWriter,
+) {
     let count = part.positions.len();
     let nothing = part.is_empty();
-    // Attributes of a part that has nothing left are those of the triangle that stands in.
-    fn whole<T: Copy>(values: &[T], nothing: bool, stand_in: T) -> Vec<T> {
-        if nothing { vec![stand_in; 3] } else { values.to_vec() }
-    }
     let positions: Vec<_> = part.positions.iter().map(|&p| space.position(p)).collect();
     insert(mesh, Mesh::ATTRIBUTE_POSITION, whole(&positions, nothing, [0.0; 3]));
     let normals: Vec<_> = part.normals.iter().map(|&n| space.normal(n)).collect();
@@ -84,12 +121,43 @@ pub(super) fn write_part(mesh: &mut Mesh, part: &ShownPart, attributes: SlotAttr
     }
     if attributes.colors && (nothing || part.colors.len() == count) {
         insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(&part.colors, nothing, [1.0; 4]));
+    } else {
+        remove(mesh, Mesh::ATTRIBUTE_COLOR);
     }
+    if matches!(stains.carrier, StainCarrier::Attributes) {
+        insert(mesh, ATTRIBUTE_REST, whole(&part.rest, nothing, [0.0; 3]));
+    } else {
+        remove(mesh, ATTRIBUTE_REST);
+        remove(mesh, ATTRIBUTE_STAINS);
+    }
+    write_stains(mesh, part, stains);
     let [a, b, c] = space.index_order();
     let indices =
         if nothing { vec![0, 1, 2] } else { part.indices.chunks_exact(3).flat_map(|t| [t[a], t[b], t[c]]).collect() };
     // Fails only for meshes that have been handed over to the GPU; ours stay.
     let _ = mesh.try_insert_indices(Indices::U32(indices));
+}
+
+/// Writes the stains of a part whose vertices are those of the last [`write_part`].
+pub(super) fn write_stains(mesh: &mut Mesh, part: &ShownPart, stains: StainWriter) {
+    let nothing = part.is_empty();
+    match stains.carrier {
+        StainCarrier::Attributes => insert(mesh, ATTRIBUTE_STAINS, whole(&part.stains, nothing, [0.0; 4])),
+        StainCarrier::Colors => {
+            let vertices = part.stains.iter().zip(&part.rest).enumerate();
+            let own = |i| part.colors.get(i).copied().unwrap_or([1.0; 4]);
+            let colors: Vec<_> = vertices
+                .map(|(i, (&s, &rest))| stains.paint.color(stains.part, own(i), s, rest, stains.edge))
+                .collect();
+            insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(&colors, nothing, [1.0; 4]));
+        }
+        StainCarrier::Nothing => {}
+    }
+}
+
+/// Attributes of a part that has nothing left are those of the triangle that stands in.
+fn whole<T: Copy>(values: &[T], nothing: bool, stand_in: T) -> Vec<T> {
+    if nothing { vec![stand_in; 3] } else { values.to_vec() }
 }
 
 /// Writes positions, normals and tangents of a part whose vertices are those of the last [`write_part`].
@@ -113,7 +181,12 @@ fn renew<T: Copy>(values: &mut Vec<T>, from: &[T], turn: impl Fn(T) -> T) {
     values.extend(from.iter().map(|&value| turn(value)));
 }
 
-pub(super) fn insert(mesh: &mut Mesh, attribute: MeshVertexAttribute, values: impl Into<VertexAttributeValues>) {
+fn insert(mesh: &mut Mesh, attribute: MeshVertexAttribute, values: impl Into<VertexAttributeValues>) {
     // Fails only for meshes that have been handed over to the GPU; ours stay.
     let _ = mesh.try_insert_attribute(attribute, values);
+}
+
+fn remove(mesh: &mut Mesh, attribute: MeshVertexAttribute) {
+    // As above.
+    let _ = mesh.try_remove_attribute(attribute);
 }

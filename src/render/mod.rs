@@ -1,19 +1,21 @@
 //! Display: the [shown parts](crate::shown) of each film become Bevy meshes, materials and children.
 //!
 //! - The prop's [`Mesh3d`](bevy::mesh::Mesh3d) is swapped for a mesh of the film that wears the prop's surface; the
-//!   material stays. Every prop has a mesh asset of its own, so instances age apart.
+//!   material goes on showing, with stains over it as [`StainDisplay`] says. Every prop has a mesh asset of its own, so
+//!   instances age apart.
 //! - With feature `render`, once some film has separated, two children of the film's entity
 //!   ([`CoatingPart`](crate::plugin::CoatingPart)) show the backs of flakes in the primer's colour, and the bare
-//!   metal. Without it there are no materials to show them with, and they are left out.
+//!   metal, both with their stains. Without it there are no materials to show them with, and they are left out.
 //!
 //! Assets are touched only in frames in which the film changed.
 
 mod film_display;
+#[cfg(feature = "render")]
+mod material;
 mod mesh;
+mod paint;
 #[cfg(feature = "render")]
 mod parts;
-#[cfg(feature = "render")]
-mod patina;
 
 use bevy::{
     app::{App, Plugin, PostUpdate},
@@ -23,6 +25,11 @@ use bevy::{
 };
 
 pub(crate) use film_display::FilmDisplay;
+#[cfg(feature = "render")]
+pub use material::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_STAINS};
+pub(crate) use paint::FilmPaint;
+pub use paint::StainDisplay;
 #[cfg(feature = "render")]
 pub(crate) use parts::is_material_ready;
 
@@ -49,15 +56,29 @@ impl Plugin for FilmDisplayPlugin {
         app.add_systems(
             PostUpdate,
             (
+                paint::follow_coatings,
                 film_display::follow_films,
                 film_display::write_fronts,
                 #[cfg(feature = "render")]
                 parts::write_parts.run_if(parts::has_materials),
-                #[cfg(feature = "render")]
-                parts::follow_looks.run_if(parts::has_materials),
             )
                 .chain()
                 .in_set(CoatingDisplay),
         );
+        #[cfg(feature = "render")]
+        if material::add_material(app) {
+            app.add_systems(
+                PostUpdate,
+                (
+                    material::undress_props,
+                    material::dress_props,
+                    material::follow_standard_materials,
+                    material::follow_paint,
+                )
+                    .chain()
+                    .after(parts::write_parts)
+                    .in_set(CoatingDisplay),
+            );
+        }
     }
 }

@@ -3,14 +3,13 @@
 use bevy::{
     asset::{Assets, Handle},
     camera::visibility::RenderLayers,
-    color::Color,
+    color::{Color, ColorToComponents, LinearRgba},
     ecs::{
         change_detection::DetectChangesMut,
         entity::Entity,
         hierarchy::ChildOf,
         name::Name,
-        query::Changed,
-        system::{Commands, Query, Res, ResMut},
+        system::{Commands, Query, Res, ResMut, SystemParam},
         world::{EntityRef, World},
     },
     light::{NotShadowCaster, NotShadowReceiver},
@@ -22,24 +21,43 @@ use bevy::{
 };
 
 use super::{
-    FilmDisplay,
-    mesh::{PartSpace, insert, move_part, new_mesh, write_part},
-    patina::patina,
+    CoatedMaterial, FilmDisplay, FilmPaint, StainDisplay, StainExtension, StainView, StainedMaterial,
+    mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
 };
 use crate::{
-    film::FilmMesh,
-    plugin::{CoatedBy, Coating, CoatingFault, CoatingPart, CoatingTimings, FilmSource, SlotAttributes},
+    plugin::{CoatingFault, CoatingPart, CoatingTimings, FilmSource, SlotAttributes},
+    shown::{ShownChange, ShownPart, look::StainPart},
     sim::Stage,
 };
 
-/// Size of a patch of rust on the metal, in mean film edges.
-const PATCH: f32 = 5.0;
-
-/// Assets of a film's backs and metal.
+/// What a film's backs and metal are shown with, once they are.
 #[derive(Default)]
 pub(super) struct PartHandles {
-    backs: Option<(Handle<Mesh>, Handle<StandardMaterial>)>,
-    metal: Option<(Handle<Mesh>, Handle<StandardMaterial>)>,
+    backs: Option<PartHandle>,
+    metal: Option<PartHandle>,
+}
+
+struct PartHandle {
+    entity: Entity,
+    mesh: Handle<Mesh>,
+    material: PartMaterial,
+}
+
+enum PartMaterial {
+    /// Draws the stains.
+    Stained(Handle<StainedMaterial>),
+    /// Heeds the vertices' colours, where there is no other or the coating wants it so.
+    Plain(Handle<StandardMaterial>),
+}
+
+impl PartHandles {
+    /// The materials that draw stains.
+    pub fn stained(&self) -> impl Iterator<Item = &Handle<StainedMaterial>> {
+        [&self.backs, &self.metal].into_iter().flatten().filter_map(|part| match &part.material {
+            PartMaterial::Stained(handle) => Some(handle),
+            PartMaterial::Plain(_) => None,
+        })
+    }
 }
 
 /// Whether the app has standard materials at all: a server may not.
@@ -52,6 +70,10 @@ pub(super) fn has_materials(materials: Option<Res<Assets<StandardMaterial>>>) ->
 /// # Errors
 /// [`CoatingFault::AlphaBlended`].
 pub(crate) fn is_material_ready(world: &World, entity: EntityRef) -> Result<bool, CoatingFault> {
+    // Its film has just gone; it gets its own material back within the frame.
+    if entity.contains::<CoatedMaterial>() {
+        return Ok(false);
+    }
     let Some(MeshMaterial3d(handle)) = entity.get::<MeshMaterial3d<StandardMaterial>>() else { return Ok(true) };
     if !world.contains_resource::<Assets<StandardMaterial>>() {
         return Ok(true);
@@ -77,13 +99,15 @@ impl Sides {
     /// nothing is drawn of the prop, either.
     fn of(
         slots: &[Entity],
-        props: &Query<PropParts>,
+        props: &Query<PropParts<'static>>,
         materials: &Assets<StandardMaterial>,
         space: PartSpace,
     ) -> Option<Self> {
         let mut sides: Option<Self> = None;
         for &slot in slots {
-            let Some(material) = props.get(slot).ok().and_then(|parts| materials.get(&parts.0?.0)) else { continue };
+            let Ok((plain, coated, ..)) = props.get(slot) else { continue };
+            let own = plain.map(|own| &own.0).or(coated.map(|own| &own.0));
+            let Some(material) = own.and_then(|own| materials.get(own)) else { continue };
             let other_side = if space.is_mirrored() { Face::Front } else { Face::Back };
             let this = Self {
                 cull_mode: material.cull_mode,
@@ -99,133 +123,164 @@ impl Sides {
 }
 
 /// What the children take over from the prop.
-type PropParts = (
-    Option<&'static MeshMaterial3d<StandardMaterial>>,
-    Option<&'static RenderLayers>,
-    Option<&'static NotShadowCaster>,
-    Option<&'static NotShadowReceiver>,
+type PropParts<'a> = (
+    Option<&'a MeshMaterial3d<StandardMaterial>>,
+    Option<&'a CoatedMaterial>,
+    Option<&'a RenderLayers>,
+    Option<&'a NotShadowCaster>,
+    Option<&'a NotShadowReceiver>,
 );
 
 /// Writes the backs and the metal of the films that changed, and spawns them when there are some for the first time.
 pub(super) fn write_parts(
-    mut commands: Commands,
-    mut films: Query<(Entity, &FilmMesh, &CoatedBy, &FilmSource, &GlobalTransform, &mut FilmDisplay)>,
-    coatings: Query<&Coating>,
-    props: Query<PropParts>,
-    mut meshes: ResMut<Assets<Mesh>>,
-    mut materials: ResMut<Assets<StandardMaterial>>,
+    mut films: Query<(Entity, &FilmSource, &GlobalTransform, &mut FilmDisplay)>,
+    mut assets: PartAssets,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::MeshGeneration, || {
-        for (film, mesh, coated_by, source, transform, mut display) in &mut films {
+        for (film, source, transform, mut display) in &mut films {
             let display = display.bypass_change_detection();
             let Some(change) = display.pending_parts.take() else { continue };
-            let Ok(coating) = coatings.get(coated_by.0) else { continue };
-            let space = display.space;
-            let mut spawn = |name: &'static str, mesh: &Handle<Mesh>, material: &Handle<StandardMaterial>| {
-                let look = (Mesh3d(mesh.clone()), MeshMaterial3d(material.clone()));
-                let place = (Transform::IDENTITY, *transform, Visibility::Inherited, ChildOf(film));
-                let mut part = commands.spawn((CoatingPart, Name::new(name), look, place));
-                let Some(Ok((_, layers, no_shadow, unshadowed))) = source.slots.first().map(|&slot| props.get(slot))
-                else {
-                    return;
-                };
-                layers.map(|layers| part.insert(layers.clone()));
-                no_shadow.map(|_| part.insert(NotShadowCaster));
-                unshadowed.map(|_| part.insert(NotShadowReceiver));
-            };
-            let (backs, metal) = (display.shown.backs(), display.shown.metal());
-            if let Some((handle, _)) = &display.parts.backs {
-                if let Some(mut mesh) = meshes.get_mut(handle) {
-                    if change.topology || change.exposure {
-                        write_part(&mut mesh, backs, SlotAttributes::default(), space);
-                    } else {
-                        move_part(&mut mesh, backs, space);
-                    }
-                }
-            } else if !backs.is_empty()
-                && let Some(sides) = Sides::of(&source.slots, &props, &materials, space)
-            {
-                let mut mesh = new_mesh();
-                write_part(&mut mesh, backs, SlotAttributes::default(), space);
-                let handles = (meshes.add(mesh), materials.add(primer(coating, &sides)));
-                spawn("paint backs", &handles.0, &handles.1);
-                display.parts.backs = Some(handles);
-            }
-            let patch = mesh.geometry.mean_edge * PATCH;
-            let write_metal = |mesh: &mut Mesh| {
-                write_part(mesh, metal, SlotAttributes::default(), space);
-                let [steel, rust] = [coating.metal.steel, coating.metal.rust].map(|color| color.to_linear());
-                if !metal.is_empty() {
-                    insert(mesh, Mesh::ATTRIBUTE_COLOR, patina(&metal.positions, steel, rust, patch, coating.seed));
-                }
-            };
-            if let Some((handle, _)) = &display.parts.metal {
-                if change.exposure
-                    && let Some(mut mesh) = meshes.get_mut(handle)
-                {
-                    write_metal(&mut mesh);
-                }
-            } else if !metal.is_empty()
-                && let Some(sides) = Sides::of(&source.slots, &props, &materials, space)
-            {
-                let mut mesh = new_mesh();
-                write_metal(&mut mesh);
-                let handles = (meshes.add(mesh), materials.add(bare_metal(coating, &sides)));
-                spawn("bare metal", &handles.0, &handles.1);
-                display.parts.metal = Some(handles);
-            }
+            let mut parts = std::mem::take(&mut display.parts);
+            let home = Home { film, transform, source };
+            assets.show(display, StainPart::Back, &mut parts.backs, change, &home);
+            assets.show(display, StainPart::Metal, &mut parts.metal, change, &home);
+            display.parts = parts;
         }
     });
 }
 
-/// Hands changed colours to the materials. The patches of the metal follow with its next change.
-pub(super) fn follow_looks(
-    changed: Query<(), Changed<Coating>>,
-    coatings: Query<&Coating>,
-    films: Query<(&CoatedBy, &FilmDisplay)>,
-    mut materials: ResMut<Assets<StandardMaterial>>,
-) {
-    if changed.is_empty() {
-        return;
+/// Where a part is spawned.
+struct Home<'a> {
+    film: Entity,
+    transform: &'a GlobalTransform,
+    source: &'a FilmSource,
+}
+
+/// What parts are written to.
+#[derive(SystemParam)]
+pub(super) struct PartAssets<'w, 's> {
+    commands: Commands<'w, 's>,
+    props: Query<'w, 's, PropParts<'static>>,
+    meshes: ResMut<'w, Assets<Mesh>>,
+    plain: ResMut<'w, Assets<StandardMaterial>>,
+    stained: Option<ResMut<'w, Assets<StainedMaterial>>>,
+}
+
+impl PartAssets<'_, '_> {
+    /// Brings one part up to date.
+    fn show(
+        &mut self,
+        display: &FilmDisplay,
+        kind: StainPart,
+        part: &mut Option<PartHandle>,
+        change: ShownChange,
+        home: &Home,
+    ) {
+        let shown = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
+        let paint = &display.paint;
+        let by_material = paint.display == StainDisplay::Material && self.stained.is_some();
+        let carrier = if by_material { StainCarrier::Attributes } else { StainCarrier::Colors };
+        let stains = StainWriter { part: kind, paint, carrier, edge: display.edge };
+        // Stains are shown another way: with another mesh layout and another type of material, on another entity.
+        if let Some(old) = part.take_if(|old| matches!(old.material, PartMaterial::Stained(_)) != by_material) {
+            self.commands.entity(old.entity).try_despawn();
+        }
+        if let Some(part) = part {
+            self.write(part, shown, stains, change, display.space);
+        } else if !shown.is_empty()
+            && let Some(sides) = Sides::of(&home.source.slots, &self.props, &self.plain, display.space)
+        {
+            let mut mesh = new_mesh();
+            write_part(&mut mesh, shown, SlotAttributes::default(), display.space, stains);
+            let mesh = self.meshes.add(mesh);
+            let base = if kind == StainPart::Back { primer(paint, &sides) } else { bare_metal(paint, &sides) };
+            let material = self.add_material(base, kind, paint, by_material);
+            let entity = self.spawn(kind, &mesh, &material, home);
+            *part = Some(PartHandle { entity, mesh, material });
+        }
     }
-    for (coated_by, display) in &films {
-        let Ok(coating) = coatings.get(coated_by.0) else { continue };
-        if !changed.contains(coated_by.0) {
-            continue;
+
+    fn write(
+        &mut self,
+        part: &PartHandle,
+        shown: &ShownPart,
+        stains: StainWriter,
+        change: ShownChange,
+        space: PartSpace,
+    ) {
+        let moves = stains.part == StainPart::Back;
+        let whole = change.exposure || (change.topology && moves);
+        if !(whole || change.stains || moves) {
+            return;
         }
-        let [backs, metal] = [&display.parts.backs, &display.parts.metal].map(|part| part.as_ref().map(|part| &part.1));
-        if let Some(mut material) = backs.and_then(|handle| materials.get_mut(handle))
-            && material.base_color != coating.primer
-        {
-            material.base_color = coating.primer;
+        let Some(mut mesh) = self.meshes.get_mut(&part.mesh) else { return };
+        if whole {
+            write_part(&mut mesh, shown, SlotAttributes::default(), space, stains);
+            return;
         }
-        let look = (coating.metal.metallic, coating.metal.roughness);
-        if let Some(mut material) = metal.and_then(|handle| materials.get_mut(handle))
-            && (material.metallic, material.perceptual_roughness) != look
-        {
-            (material.metallic, material.perceptual_roughness) = look;
+        if moves {
+            move_part(&mut mesh, shown, space);
         }
+        if change.stains {
+            write_stains(&mut mesh, shown, stains);
+        }
+    }
+
+    fn add_material(
+        &mut self,
+        base: StandardMaterial,
+        part: StainPart,
+        paint: &FilmPaint,
+        by_material: bool,
+    ) -> PartMaterial {
+        match &mut self.stained {
+            Some(stained) if by_material => {
+                let (look, pattern) = (paint.look.clone(), paint.pattern);
+                let extension = StainExtension { part, look, pattern, view: StainView::Lit };
+                PartMaterial::Stained(stained.add(StainedMaterial { base, extension }))
+            }
+            _ => PartMaterial::Plain(self.plain.add(StandardMaterial { base_color: Color::WHITE, ..base })),
+        }
+    }
+
+    fn spawn(&mut self, kind: StainPart, mesh: &Handle<Mesh>, material: &PartMaterial, home: &Home) -> Entity {
+        let name = if kind == StainPart::Back { "paint backs" } else { "bare metal" };
+        let place = (Transform::IDENTITY, *home.transform, Visibility::Inherited, ChildOf(home.film));
+        let mut part = self.commands.spawn((CoatingPart, Name::new(name), Mesh3d(mesh.clone()), place));
+        match material {
+            PartMaterial::Stained(handle) => part.insert(MeshMaterial3d(handle.clone())),
+            PartMaterial::Plain(handle) => part.insert(MeshMaterial3d(handle.clone())),
+        };
+        let slot = home.source.slots.first();
+        if let Some((.., layers, no_shadow, unshadowed)) = slot.and_then(|&slot| self.props.get(slot).ok()) {
+            layers.map(|layers| part.insert(layers.clone()));
+            no_shadow.map(|_| part.insert(NotShadowCaster));
+            unshadowed.map(|_| part.insert(NotShadowReceiver));
+        }
+        part.id()
     }
 }
 
 /// The back of the paint. Its triangles are wound against the prop's, so one side is enough.
-fn primer(coating: &Coating, sides: &Sides) -> StandardMaterial {
+fn primer(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
+    let look = paint.primer_look();
     StandardMaterial {
-        base_color: coating.primer,
-        perceptual_roughness: 0.85,
-        reflectance: 0.3,
+        base_color: Color::LinearRgba(LinearRgba::from_vec3(look.base_color)),
+        perceptual_roughness: look.roughness,
+        reflectance: look.reflectance,
         cull_mode: Some(sides.hidden),
         ..StandardMaterial::default()
     }
 }
 
-/// Bare metal: vertex colours carry the rust. Shown from the sides from which the prop is.
-fn bare_metal(coating: &Coating, sides: &Sides) -> StandardMaterial {
+/// Bare metal, shown from the sides from which the prop is. How it looks comes from its stains; where only their
+/// colours can be shown, it is half steel and half rust.
+fn bare_metal(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
     StandardMaterial {
         base_color: Color::WHITE,
-        metallic: coating.metal.metallic,
-        perceptual_roughness: coating.metal.roughness,
+        metallic: 0.5 * paint.look.steel_metallic,
+        perceptual_roughness: 0.5 * (paint.look.steel_roughness + paint.look.rust_roughness),
         cull_mode: sides.cull_mode,
         double_sided: sides.double_sided,
         ..StandardMaterial::default()

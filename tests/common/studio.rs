@@ -1,4 +1,5 @@
 //! A studio without a window: props in even light before a plain backdrop, and a camera that can be put anywhere.
+#![allow(dead_code, reason = "each test binary uses its part")]
 
 use std::{path::Path, sync::Arc};
 
@@ -22,6 +23,9 @@ use bevy_coating::prelude::*;
 
 /// Frames from a change of the scene to its picture: new meshes reach the screen late.
 const SETTLING_FRAMES: u32 = 5;
+
+/// Vertical field of view of the camera, in radians.
+pub const FIELD_OF_VIEW: f32 = 0.6;
 
 /// The backdrop, which no prop is.
 const BACKDROP: Color = Color::srgb(1.0, 0.0, 1.0);
@@ -93,7 +97,7 @@ impl Studio {
         app.cleanup();
         let canvas = Image::new_target_texture(width, height, TextureFormat::Rgba8UnormSrgb, None);
         let canvas = app.world_mut().resource_mut::<Assets<Image>>().add(canvas);
-        let lens = PerspectiveProjection { fov: 0.6, near: 0.01, ..default() };
+        let lens = PerspectiveProjection { fov: FIELD_OF_VIEW, near: 0.01, ..default() };
         let camera = app
             .world_mut()
             .spawn((
@@ -112,6 +116,11 @@ impl Studio {
             ));
         }
         Self { app, camera, canvas }
+    }
+
+    /// The camera's entity.
+    pub fn camera_mut(&mut self) -> EntityWorldMut<'_> {
+        self.app.world_mut().entity_mut(self.camera)
     }
 
     /// Takes a picture of what is at `target`, seen from `eye`.

@@ -20,12 +20,15 @@ use super::{
     build::{FilmBuild, FilmOrder, build_film},
     finish::refuse,
 };
+#[cfg(feature = "render")]
+use crate::plugin::{CoatedMaterial, StainDisplay};
 use crate::{
     plugin::{
         CoatedBy, Coating, CoatingFault, CoatingGravity, CoatingWeather, SettingsSource, Shelter,
         components::{AwaitingFilm, FilmSlot},
         shelter::ShelterScene,
     },
+    render::FilmPaint,
     settings::CoatingSettings,
 };
 
@@ -83,7 +86,7 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
     let mut meshes = Vec::with_capacity(slots.len());
     for &slot in slots {
         let Ok(entity) = world.get_entity(slot) else { return Ok(None) };
-        check_components(world, entity)?;
+        check_components(world, entity, coating)?;
         #[cfg(feature = "render")]
         if !crate::render::is_material_ready(world, entity)? {
             return Ok(None);
@@ -112,7 +115,15 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
             return Ok(None);
         }
     }
-    Ok(Some(FilmOrder { meshes, key: coating.key(), settings, scale, environment, shelter }))
+    Ok(Some(FilmOrder {
+        meshes,
+        key: coating.key(),
+        settings,
+        scale,
+        environment,
+        shelter,
+        paint: FilmPaint::new(coating, Vec3::ZERO),
+    }))
 }
 
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {
@@ -145,9 +156,13 @@ pub(crate) fn loaded<'w, A: Asset>(world: &'w World, handle: &Handle<A>, failed:
     if world.get_resource::<AssetServer>().is_some_and(state) { Err(failed) } else { Ok(None) }
 }
 
-/// Refuses skinned and morphed meshes and custom materials. Types that are not part of every build of Bevy are known
+/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not part of every build of Bevy are known
 /// by their type paths.
-fn check_components(world: &World, entity: EntityRef) -> Result<(), CoatingFault> {
+fn check_components(
+    world: &World,
+    entity: EntityRef,
+    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
+) -> Result<(), CoatingFault> {
     if entity.contains::<SkinnedMesh>() {
         return Err(CoatingFault::Skinned);
     }
@@ -159,7 +174,9 @@ fn check_components(world: &World, entity: EntityRef) -> Result<(), CoatingFault
             return Err(CoatingFault::Morphed);
         }
         #[cfg(feature = "render")]
-        if let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
+        if coating.stain_display == StainDisplay::Material
+            && let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
+            && !entity.contains::<CoatedMaterial>()
             && material != "bevy_pbr::pbr_material::StandardMaterial>"
         {
             return Err(CoatingFault::CustomMaterial { material: material.trim_end_matches('>').into() });

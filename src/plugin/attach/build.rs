@@ -17,7 +17,7 @@ use crate::{
         coating::FilmKey,
         shelter::{CastOrder, FilmShelter},
     },
-    render::FilmDisplay,
+    render::{FilmDisplay, FilmPaint},
     settings::CoatingSettings,
     sim::FilmState,
     stain::{Environment, exposure::ExposedSurface},
@@ -42,6 +42,7 @@ pub(super) struct FilmOrder {
     pub environment: Environment,
     /// What may shelter it, if rain or sun reach the film.
     pub shelter: Option<CastOrder>,
+    pub paint: FilmPaint,
 }
 
 /// A film that is ready to be put on its prop.
@@ -55,12 +56,12 @@ pub(crate) struct FilmReadiness {
 
 /// Builds, dresses and ages a film.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { meshes, key, settings, scale, environment, shelter } = order;
+    let FilmOrder { meshes, key, settings, scale, environment, shelter, paint } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
-    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale);
+    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale, paint.clone());
     let shelter = shelter.clone().map(|order| cast(order, &mut film)).unwrap_or_default();
     film.age_to(key.start_age, settings, environment);
     display.prepare(&film);

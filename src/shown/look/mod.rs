@@ -1,7 +1,28 @@
 //! How stained surfaces look: from fields to colour, roughness, metalness and relief. The same on the CPU, for baked
-//! models, as in the shader (`src/render/weathering.wgsl`), which a test holds together.
+//! models, as in the shader (`src/render/material/look.wgsl`), which a test holds together.
+//!
+//! | surface | function | what it shows |
+//! |---|---|---|
+//! | paint | [`StainLook::film`] | the prop's own look under run-off, dust and water |
+//! | backs of flakes | [`StainLook::back`] | primer into which rust creeps, and the same stains |
+//! | bare metal | [`StainLook::metal`] | steel, first rust, layered rust, and the same stains |
+//!
+//! Fields give how much there is at a vertex; noise in metres gives the detail below the mesh's resolution. What
+//! covers a place is the field held against the noise, so that stains break up instead of fading like fog, while
+//! their mean over some area stays that of the field.
+
+mod film;
+mod metal;
+mod noise;
+mod pattern;
+mod settings;
+#[cfg(test)]
+mod tests;
 
 use bevy_math::Vec3;
+
+pub use pattern::StainPattern;
+pub use settings::StainLook;
 
 /// What a place of a surface looks like: the inputs of a physically based material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,4 +53,34 @@ pub struct StainSample {
     pub corrosion: f32,
     /// The place at rest, in the film's space.
     pub rest: Vec3,
+}
+
+impl StainSample {
+    /// The sample of one vertex of a shown part: its stains and its place at rest.
+    pub fn new([rust, dust, moisture, corrosion]: [f32; 4], rest: [f32; 3]) -> Self {
+        Self { rust, dust, moisture, corrosion, rest: Vec3::from_array(rest) }
+    }
+}
+
+/// What kind of surface is stained.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum StainPart {
+    /// The front of the paint.
+    #[default]
+    Film,
+    /// The back of the paint.
+    Back,
+    /// Bare metal.
+    Metal,
+}
+
+impl StainLook {
+    /// The look of `part`: [`film`](Self::film), [`back`](Self::back) or [`metal`](Self::metal), which needs no `base`.
+    pub fn part(&self, part: StainPart, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+        match part {
+            StainPart::Film => self.film(base, s, p),
+            StainPart::Back => self.back(base, s, p),
+            StainPart::Metal => self.metal(s, p),
+        }
+    }
 }

@@ -1,0 +1,203 @@
+// From stains to what a surface looks like: the twin of `src/shown/look`, function by function. Numbers are explained
+// there.
+#define_import_path bevy_coating::look
+
+#import bevy_coating::noise::{Grain, Octaves, around, cover, grain, of_level}
+
+// `StainUniform` in uniform.rs.
+struct StainUniform {
+    rust_thin: vec3<f32>,
+    rust_strength: f32,
+    rust_thick: vec3<f32>,
+    rust_roughness: f32,
+    dust: vec3<f32>,
+    dust_strength: f32,
+    steel: vec3<f32>,
+    steel_metallic: f32,
+    first_rust: vec3<f32>,
+    steel_roughness: f32,
+    rust: vec3<f32>,
+    relief: f32,
+    streaks: vec3<f32>,
+    streak_width: f32,
+    offset: vec3<f32>,
+    streak_stretch: f32,
+    dust_dulling: f32,
+    dust_size: f32,
+    wet_darkening: f32,
+    wet_roughness: f32,
+    creep: f32,
+    patch_size: f32,
+    view: u32,
+}
+
+// What a place looks like. `reflectance` has a tint in Bevy's materials; `slope` is that of the height.
+struct SurfaceLook {
+    base_color: vec3<f32>,
+    metallic: f32,
+    roughness: f32,
+    reflectance: vec3<f32>,
+    slope: vec3<f32>,
+}
+
+// The stains of a place, where it lies at rest, and the size of a pixel there in metres.
+struct StainSample {
+    rust: f32,
+    dust: f32,
+    moisture: f32,
+    corrosion: f32,
+    rest: vec3<f32>,
+    footprint: f32,
+}
+
+const STREAK_EDGE: f32 = 0.16;
+const RUST_REFLECTANCE: f32 = 0.3;
+const WATER_REFLECTANCE: f32 = 0.36;
+const LEVELS: f32 = 4.0;
+
+fn round_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>) -> Grain {
+    return grain(s.rest + u.offset, vec3<f32>(0.0), 1.0, Octaves(sizes, weights), s.footprint);
+}
+
+fn streak_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>, stretch: f32) -> Grain {
+    return grain(s.rest + u.offset, u.streaks, stretch, Octaves(sizes, weights), s.footprint);
+}
+
+fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) -> SurfaceLook {
+    var look = base;
+    look.base_color = mix(base.base_color, color, covered);
+    look.metallic = base.metallic * (1.0 - covered);
+    look.roughness = mix(base.roughness, u.rust_roughness, covered);
+    look.reflectance = mix(base.reflectance, vec3<f32>(RUST_REFLECTANCE), covered);
+    return look;
+}
+
+fn run_off(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain, blotch: Grain) -> SurfaceLook {
+    let amount = 1.0 - exp(-3.0 * s.rust);
+    let core = cover(streak, amount, STREAK_EDGE);
+    let wash = min(amount * around(streak, 1.0, 0.6) * around(blotch, 1.0, 0.3), 1.0);
+    let covered = mix(wash, core, 0.62) * u.rust_strength;
+    let thick = smoothstep(0.35, 1.05, amount * around(streak, 0.75, 0.45) + 0.1 * around(blotch, 0.0, 1.0));
+    let color = mix(u.rust_thin, u.rust_thick, thick) * around(blotch, 1.0, 0.16);
+    return rusted(u, base, color, covered);
+}
+
+fn dusty(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain) -> SurfaceLook {
+    let patches = round_grain(u, s, u.dust_size * vec3<f32>(1.0, 0.37, 0.1), vec3<f32>(0.5, 0.35, 0.3));
+    let gathered = mix(s.dust, cover(patches, s.dust, 0.35), 0.55) * around(streak, 1.0, 0.18);
+    let covered = clamp(u.dust_strength * gathered, 0.0, 1.0);
+    var look = base;
+    look.base_color = mix(base.base_color, u.dust, covered);
+    look.metallic = base.metallic * (1.0 - covered);
+    look.roughness = mix(base.roughness, max(base.roughness, 0.95), min(1.3 * covered, 1.0));
+    look.reflectance = base.reflectance * (1.0 - u.dust_dulling * clamp(gathered, 0.0, 1.0));
+    return look;
+}
+
+fn wet(u: StainUniform, base: SurfaceLook, s: StainSample, porous: f32) -> SurfaceLook {
+    let patches = streak_grain(u, s, u.dust_size * vec3<f32>(1.0, 0.4, 0.15), vec3<f32>(0.5, 0.4, 0.2), 4.0);
+    let covered = cover(patches, s.moisture, 0.3);
+    let darkening = min(u.wet_darkening * (1.0 + 0.5 * min(porous, 1.0)), 1.0);
+    var look = base;
+    look.base_color = base.base_color * (1.0 - darkening * covered);
+    look.roughness = mix(base.roughness, min(base.roughness, u.wet_roughness), 0.9 * covered);
+    look.reflectance = mix(base.reflectance, max(base.reflectance, vec3<f32>(WATER_REFLECTANCE)), covered);
+    look.slope = base.slope * (1.0 - 0.5 * covered);
+    return look;
+}
+
+#ifdef STAIN_BACK
+fn creeping(u: StainUniform, base: SurfaceLook, s: StainSample, blotch: Grain) -> SurfaceLook {
+    let covered = u.creep * cover(blotch, s.corrosion, 0.12);
+    let thick = smoothstep(0.5, 1.0, s.corrosion * around(blotch, 0.9, 0.4));
+    return rusted(u, base, mix(u.rust_thin, u.rust_thick, thick), covered);
+}
+#endif
+
+#ifdef STAIN_METAL
+fn steel(u: StainUniform, s: StainSample) -> SurfaceLook {
+    let lines = Octaves(vec3<f32>(0.0011, 0.0005, 0.00025), vec3<f32>(0.4, 0.4, 0.3));
+    let scratches = grain(s.rest + u.offset, vec3<f32>(0.796, 0.243, 0.554), 90.0, lines, s.footprint);
+    var look: SurfaceLook;
+    look.base_color = u.steel * around(scratches, 1.0, 0.12);
+    look.metallic = u.steel_metallic;
+    look.roughness = clamp(u.steel_roughness * around(scratches, 1.0, 0.25), 0.089, 1.0);
+    look.reflectance = vec3<f32>(0.5);
+    look.slope = vec3<f32>(0.0);
+    return look;
+}
+
+fn corroded(u: StainUniform, bright: SurfaceLook, s: StainSample, streak: Grain) -> SurfaceLook {
+    let size = u.patch_size;
+    let patches = round_grain(u, s, size * vec3<f32>(2.1, 1.0, 0.4), vec3<f32>(0.5, 0.42, 0.25));
+    let scales = round_grain(u, s, size * vec3<f32>(0.5, 0.21, 0.08), vec3<f32>(0.5, 0.36, 0.2));
+    let grit = round_grain(u, s, size * vec3<f32>(0.11, 0.045, 0.02), vec3<f32>(0.4, 0.42, 0.34));
+    let spread = s.corrosion * (1.0 - s.corrosion);
+    let age = clamp(s.corrosion + spread * around(patches, 0.0, 1.1), 0.0, 1.0);
+    let first = cover(grit, min(age * 3.2, 1.0), 0.2);
+    let layered = cover(scales, smoothstep(0.22, 0.95, age), 0.14);
+    // A place on layers that lie on each other with steep edges.
+    let level = floor(scales.value * LEVELS);
+    let within = scales.value * LEVELS - level;
+    let rise = smoothstep(0.78, 1.0, within);
+    let tint = mix(0.5, mix(of_level(level), of_level(level + 1.0), rise), scales.kept);
+    let edge = smoothstep(0.55, 0.8, within) * (1.0 - rise);
+    let shade = 1.0 - 0.45 * edge * scales.kept;
+    let dark = u.first_rust * around(grit, 1.25, 0.7);
+    let orange = u.rust * mix(vec3<f32>(0.34), vec3<f32>(1.45, 1.75, 1.9), tint * tint);
+    let tone = around(grit, 0.92, 0.34) * around(streak, 0.95, 0.22) * shade;
+    let pits = smoothstep(0.8, 0.93, 1.0 - grit.value) * grit.kept * smoothstep(0.1, 0.5, age);
+    let color = mix(dark, orange * tone, 0.92 * layered) * (1.0 - 0.65 * pits);
+    let rough = mix(0.62, 0.95, layered) - 0.1 * (1.0 - layered) * around(grit, 0.0, 1.0);
+    // The height's slope, with cover and age taken for even.
+    let t = clamp((within - 0.78) / 0.22, 0.0, 1.0);
+    let pit = clamp((0.2 - grit.value) / 0.13, 0.0, 1.0);
+    let rise_slope = 6.0 * t * (1.0 - t) / 0.22 * scales.slope;
+    let pit_slope = -6.0 * pit * (1.0 - pit) / 0.13 * grit.slope * grit.kept * smoothstep(0.1, 0.5, age);
+    var look: SurfaceLook;
+    look.base_color = mix(bright.base_color, color, first);
+    look.metallic = bright.metallic * (1.0 - first) + 0.25 * bright.metallic * first * (1.0 - layered);
+    look.roughness = mix(bright.roughness, rough, first);
+    look.reflectance = mix(bright.reflectance, vec3<f32>(0.32), first);
+    look.slope = u.relief * first * (layered * (rise_slope + 0.24 * grit.slope) - 0.3 * pit_slope);
+    return look;
+}
+
+#endif
+
+// The look of a place: `base` is that of the standard material, which metal has no use for.
+fn stained(u: StainUniform, base: SurfaceLook, s: StainSample) -> SurfaceLook {
+    var look = base;
+    var porous = s.rust;
+    var streak: Grain;
+    if s.rust > 0.0 || s.dust > 0.0 || s.corrosion > 0.0 {
+        let sizes = u.streak_width * vec3<f32>(2.5, 1.0, 0.42);
+        streak = streak_grain(u, s, sizes, vec3<f32>(0.5, 0.42, 0.26), u.streak_stretch);
+    }
+    var blotch: Grain;
+    if s.rust > 0.0 || s.corrosion > 0.0 {
+        blotch = round_grain(u, s, u.patch_size * vec3<f32>(0.35, 0.12, 0.04), vec3<f32>(0.5, 0.35, 0.25));
+    }
+#ifdef STAIN_METAL
+    look = steel(u, s);
+    porous = s.corrosion;
+    if s.corrosion > 0.0 {
+        look = corroded(u, look, s, streak);
+    }
+#endif
+#ifdef STAIN_BACK
+    if s.corrosion > 0.0 {
+        look = creeping(u, look, s, blotch);
+    }
+#endif
+    if s.rust > 0.0 {
+        look = run_off(u, look, s, streak, blotch);
+    }
+    if s.dust > 0.0 {
+        look = dusty(u, look, s, streak);
+    }
+    if s.moisture > 0.0 {
+        look = wet(u, look, s, max(porous, s.dust));
+    }
+    return look;
+}

@@ -1,0 +1,139 @@
+//! Stains as an extension of `StandardMaterial`: everything that the prop's own material does goes on working, and the
+//! shader draws run-off, dust, water and rusted metal over it, from the fields in the mesh
+//! ([`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`]) and noise in metres.
+//!
+//! The shader is embedded, so with Bevy's `embedded_watcher` it can be edited while a game runs. Forward and deferred
+//! passes are drawn by it; prepass and shadows, in which nothing of this can be seen, by Bevy's own shaders.
+
+mod dress;
+mod follow;
+mod uniform;
+
+use bevy::{
+    app::App,
+    asset::{Asset, embedded_asset},
+    mesh::MeshVertexBufferLayoutRef,
+    pbr::{MaterialExtension, MaterialExtensionKey, MaterialExtensionPipeline, MaterialPlugin, PbrPlugin},
+    prelude::*,
+    render::{
+        RenderApp,
+        render_resource::{AsBindGroup, RenderPipelineDescriptor, SpecializedMeshPipelineError},
+    },
+    shader::{ShaderRef, load_shader_library},
+};
+
+pub use dress::CoatedMaterial;
+pub(super) use dress::{dress_props, undress_props};
+pub(super) use follow::{follow_paint, follow_standard_materials};
+pub(crate) use uniform::StainUniform;
+pub use uniform::StainedMaterial;
+
+use super::mesh::{ATTRIBUTE_REST, ATTRIBUTE_STAINS};
+use crate::shown::look::{StainLook, StainPart, StainPattern};
+
+/// Where the shader is among embedded assets.
+const SHADER: &str = "embedded://bevy_coating/render/material/weathering.wgsl";
+
+/// Locations of the stains among vertex attributes: free in Bevy's forward and prepass layouts.
+const LOCATIONS: [u32; 2] = [8, 9];
+
+/// Stains on a `StandardMaterial`. Meshes that wear it need [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`] and normals.
+#[derive(Asset, AsBindGroup, Reflect, Clone, Debug, Default, PartialEq)]
+#[uniform(100, StainUniform)]
+#[bind_group_data(StainPart)]
+#[reflect(Default, Debug, Clone, PartialEq)]
+pub struct StainExtension {
+    /// What kind of surface it is on. The standard material underneath shows on the film and on its back; metal has a
+    /// look of its own.
+    pub part: StainPart,
+    /// Colours and strengths.
+    pub look: StainLook,
+    /// How the patterns lie.
+    pub pattern: StainPattern,
+    /// What is drawn. Default: the lit surface.
+    pub view: StainView,
+}
+
+/// What of a stained surface is drawn: it, or one of the quantities that make it up, for tests and for the curious.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Default, Debug, Clone, PartialEq, Hash)]
+pub enum StainView {
+    /// The lit surface.
+    #[default]
+    Lit,
+    /// Its base colour, unlit.
+    BaseColor,
+    /// Metalness, roughness and reflectance as red, green and blue.
+    Surface,
+    /// Its normal in the world, from -1 to 1 in each channel.
+    Normal,
+}
+
+impl From<&StainExtension> for StainUniform {
+    fn from(from: &StainExtension) -> Self {
+        Self::new(from.view, &from.look, &from.pattern)
+    }
+}
+
+/// A pipeline for each part: none carries the others' patterns.
+impl From<&StainExtension> for StainPart {
+    fn from(from: &StainExtension) -> Self {
+        from.part
+    }
+}
+
+impl MaterialExtension for StainExtension {
+    fn vertex_shader() -> ShaderRef {
+        SHADER.into()
+    }
+
+    fn fragment_shader() -> ShaderRef {
+        SHADER.into()
+    }
+
+    fn deferred_vertex_shader() -> ShaderRef {
+        SHADER.into()
+    }
+
+    fn deferred_fragment_shader() -> ShaderRef {
+        SHADER.into()
+    }
+
+    /// Adds the stains to the vertex attributes of each pass, whatever else it has.
+    fn specialize(
+        _pipeline: &MaterialExtensionPipeline,
+        descriptor: &mut RenderPipelineDescriptor,
+        layout: &MeshVertexBufferLayoutRef,
+        key: MaterialExtensionKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        let part = match key.bind_group_data {
+            StainPart::Film => "STAIN_FILM",
+            StainPart::Back => "STAIN_BACK",
+            StainPart::Metal => "STAIN_METAL",
+        };
+        descriptor.vertex.shader_defs.push(part.into());
+        if let Some(fragment) = &mut descriptor.fragment {
+            fragment.shader_defs.push(part.into());
+        }
+        let [stains, rest] = LOCATIONS;
+        let ours = layout
+            .0
+            .get_layout(&[ATTRIBUTE_STAINS.at_shader_location(stains), ATTRIBUTE_REST.at_shader_location(rest)])?;
+        if let Some(buffer) = descriptor.vertex.buffers.first_mut() {
+            buffer.attributes.extend(ours.attributes);
+        }
+        Ok(())
+    }
+}
+
+/// Adds the material and its shaders, where there is something to draw with; whether there is.
+pub(super) fn add_material(app: &mut App) -> bool {
+    if app.get_sub_app(RenderApp).is_none() || !app.is_plugin_added::<PbrPlugin>() {
+        return false;
+    }
+    load_shader_library!(app, "noise.wgsl");
+    load_shader_library!(app, "look.wgsl");
+    embedded_asset!(app, "weathering.wgsl");
+    app.add_plugins(MaterialPlugin::<StainedMaterial>::default());
+    true
+}

@@ -1,0 +1,112 @@
+//! Stains on paint: run-off, dust and water, on its front and on the backs of its flakes.
+
+use bevy_math::{Vec3, ops};
+
+use super::{
+    StainLook, StainPattern, StainSample, SurfaceLook,
+    noise::{Grain, mix, smoothstep},
+};
+
+/// Softness of the edges of streaks.
+const STREAK_EDGE: f32 = 0.16;
+/// Reflectance of rust: it scatters.
+const RUST_REFLECTANCE: f32 = 0.3;
+/// Reflectance of a film of water, 2 %.
+const WATER_REFLECTANCE: f32 = 0.36;
+
+impl StainLook {
+    /// Paint of the look `base` with the stains of `s` on it. Where there are none, `base` itself.
+    pub fn film(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+        let stained = self.run_off(base, s, p);
+        let dusty = self.dusty(stained, s, p);
+        self.wet(dusty, s, p, s.rust.max(s.dust))
+    }
+
+    /// The back of a flake of the look `base`, its primer: rust creeps in from the edges, where the metal lies bare.
+    pub fn back(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+        let mut look = base;
+        if s.corrosion > 0.0 {
+            let blotches = p.grain(s.rest, self.blotches());
+            let cover = self.creep * blotches.cover(s.corrosion, 0.12);
+            let thick = smoothstep(0.5, 1.0, s.corrosion * blotches.around(0.9, 0.4));
+            look = self.rusted(look, self.rust_thin.lerp(self.rust_thick, thick), cover);
+        }
+        self.film(look, s, p)
+    }
+
+    /// Run-off (VC 6.1): its cover follows 0.85 (1 - exp(-3 layers)), broken up into streaks.
+    pub(super) fn run_off(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+        if s.rust <= 0.0 {
+            return base;
+        }
+        let amount = 1.0 - ops::exp(-3.0 * s.rust);
+        let streak = self.streaks(s.rest, p);
+        let blotches = p.grain(s.rest, self.blotches());
+        // Cores of streaks over a thin wash.
+        let core = streak.cover(amount, STREAK_EDGE);
+        let wash = (amount * streak.around(1.0, 0.6) * blotches.around(1.0, 0.3)).min(1.0);
+        let cover = mix(wash, core, 0.62) * self.rust_strength;
+        let thick = smoothstep(0.35, 1.05, amount * streak.around(0.75, 0.45) + 0.1 * blotches.around(0.0, 1.0));
+        let tone = blotches.around(1.0, 0.16);
+        let color = self.rust_thin.lerp(self.rust_thick, thick) * tone;
+        self.rusted(base, color, cover)
+    }
+
+    /// Dust and soot (VC 6.2): darkens, and lowers the reflectance.
+    pub(super) fn dusty(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+        if s.dust <= 0.0 {
+            return base;
+        }
+        let size = self.dust_size;
+        let patches = p.grain(s.rest, [(size, 0.5), (size * 0.37, 0.35), (size * 0.1, 0.3)]);
+        let washed = self.streaks(s.rest, p);
+        let gathered = mix(s.dust, patches.cover(s.dust, 0.35), 0.55) * washed.around(1.0, 0.18);
+        let cover = (self.dust_strength * gathered).clamp(0.0, 1.0);
+        SurfaceLook {
+            base_color: base.base_color.lerp(self.dust, cover),
+            metallic: base.metallic * (1.0 - cover),
+            roughness: mix(base.roughness, base.roughness.max(0.95), (1.3 * cover).min(1.0)),
+            reflectance: base.reflectance * (1.0 - self.dust_dulling * gathered.clamp(0.0, 1.0)),
+            height: base.height,
+        }
+    }
+
+    /// Water: darker and glossier. `porous` is how much there is to soak it up, 0 or more.
+    pub(super) fn wet(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern, porous: f32) -> SurfaceLook {
+        if s.moisture <= 0.0 {
+            return base;
+        }
+        let size = self.dust_size;
+        let patches = p.streak(s.rest, [(size, 0.5), (size * 0.4, 0.4), (size * 0.15, 0.2)], 4.0);
+        let wet = patches.cover(s.moisture, 0.3);
+        let darkening = (self.wet_darkening * (1.0 + 0.5 * porous.min(1.0))).min(1.0);
+        SurfaceLook {
+            base_color: base.base_color * (1.0 - darkening * wet),
+            metallic: base.metallic,
+            roughness: mix(base.roughness, base.roughness.min(self.wet_roughness), 0.9 * wet),
+            reflectance: mix(base.reflectance, base.reflectance.max(WATER_REFLECTANCE), wet),
+            height: base.height * (1.0 - 0.5 * wet),
+        }
+    }
+
+    /// `cover` of the surface hidden under rust of `color`.
+    pub(super) fn rusted(&self, base: SurfaceLook, color: Vec3, cover: f32) -> SurfaceLook {
+        SurfaceLook {
+            base_color: base.base_color.lerp(color, cover),
+            metallic: base.metallic * (1.0 - cover),
+            roughness: mix(base.roughness, self.rust_roughness, cover),
+            reflectance: mix(base.reflectance, RUST_REFLECTANCE, cover),
+            height: base.height,
+        }
+    }
+
+    pub(super) fn streaks(&self, rest: Vec3, p: &StainPattern) -> Grain {
+        let width = self.streak_width;
+        p.streak(rest, [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)], self.streak_stretch)
+    }
+
+    fn blotches(&self) -> [(f32, f32); 3] {
+        let size = self.patch_size;
+        [(size * 0.35, 0.5), (size * 0.12, 0.35), (size * 0.04, 0.25)]
+    }
+}

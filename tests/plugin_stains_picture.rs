@@ -1,0 +1,167 @@
+//! What stains look like when drawn: the shader against its twin, in each pass, and what pictures show. Needs a graphics
+//! adapter, be it a software renderer.
+
+#![cfg(feature = "render")]
+
+mod common;
+#[path = "common/stained.rs"]
+mod stained;
+#[path = "common/studio.rs"]
+mod studio;
+
+use bevy::{core_pipeline::prepass::*, pbr::DefaultOpaqueRendererMethod, prelude::*};
+use bevy_coating::{
+    plugin::{StainExtension, StainView, StainedMaterial},
+    shown::look::{StainLook, StainPart, StainPattern, StainSample, SurfaceLook},
+};
+use stained::*;
+use studio::{Picture, Studio};
+
+/// Skips a test without an adapter.
+macro_rules! need_adapter {
+    () => {
+        if !studio::adapter_exists() {
+            println!("skipped: no graphics adapter was found (a software renderer would do: mesa-vulkan-drivers)");
+            return;
+        }
+    };
+}
+
+const SIZE: (u32, u32) = (320, 240);
+const BASE: SurfaceLook = SurfaceLook {
+    base_color: Vec3::new(0.5, 0.55, 0.45),
+    metallic: 0.1,
+    roughness: 0.4,
+    reflectance: 0.5,
+    height: 0.0,
+};
+
+fn base_material() -> StandardMaterial {
+    StandardMaterial {
+        base_color: LinearRgba::from_vec3(BASE.base_color).into(),
+        metallic: BASE.metallic,
+        perceptual_roughness: BASE.roughness,
+        reflectance: BASE.reflectance,
+        ..default()
+    }
+}
+
+/// Fields that have every stain somewhere on the plate.
+fn fields(p: Vec3) -> [f32; 4] {
+    let ramp = |x: f32| x.clamp(0.0, 1.0);
+    [1.2 * ramp(p.x * 4.0 + 0.2), ramp(p.y * 3.0), ramp(-p.y * 3.0 - 0.1), ramp(0.5 - p.x * 5.0)]
+}
+
+fn pattern() -> StainPattern {
+    StainPattern::new(5, Vec3::new(0.1, -1.0, 0.0))
+}
+
+/// Mean and largest difference, in 1/255, between a picture and what `expected` says of each place.
+fn difference(picture: &Picture, eye: f32, encode: bool, expected: impl Fn(Vec3, f32) -> Vec3) -> (f32, f32) {
+    let (mut sum, mut largest, mut count) = (0.0, 0.0f32, 0.0);
+    for (place, pixel_size, pixel) in picture.places(eye) {
+        let wanted = expected(place, pixel_size);
+        for i in 0..3 {
+            let value = if encode { Color::linear_rgb(wanted[i], 0.0, 0.0).to_srgba().red } else { wanted[i] };
+            let difference = (value.clamp(0.0, 1.0) * 255.0 - f32::from(pixel[i])).abs();
+            sum += difference;
+            largest = largest.max(difference);
+            count += 1.0;
+        }
+    }
+    (sum / count, largest)
+}
+
+#[test]
+fn the_shader_draws_what_its_twin_says() {
+    need_adapter!();
+    let mut studio = Studio::new(SIZE.0, SIZE.1, ".");
+    for eye in [0.25, 1.0] {
+        for part in [StainPart::Film, StainPart::Back, StainPart::Metal] {
+            let look = StainLook::default();
+            for view in [StainView::BaseColor, StainView::Surface] {
+                let extension = StainExtension { part, look: look.clone(), pattern: pattern(), view };
+                let material = StainedMaterial { base: base_material(), extension };
+                let plate = spawn_stained(&mut studio.app, stained_plate(1.2, 240, fields), material);
+                let picture = studio.shoot(Vec3::Z * eye, Vec3::ZERO);
+                save(&picture, &format!("twin_{part:?}_{view:?}_{eye}"));
+                let expected = |place: Vec3, footprint| {
+                    let s = StainSample::new(fields(place), place.to_array());
+                    let found = look.part(part, BASE, &s, &pattern().with_footprint(footprint));
+                    if view == StainView::BaseColor {
+                        found.base_color
+                    } else {
+                        Vec3::new(found.metallic, found.roughness, found.reflectance)
+                    }
+                };
+                let (mean, largest) = difference(&picture, eye, true, expected);
+                println!("{part:?} {view:?} at {eye} m: {mean:.2} mean, {largest:.0} largest difference of 255");
+                assert!(mean < 1.0 && largest < 12.0, "{part:?} {view:?} at {eye} m");
+                studio.app.world_mut().entity_mut(plate).despawn();
+            }
+        }
+    }
+}
+
+#[test]
+fn relief_bends_the_normal_as_the_height_says() {
+    need_adapter!();
+    let mut studio = Studio::new(SIZE.0, SIZE.1, ".");
+    let look = StainLook::default();
+    let part = StainPart::Metal;
+    let extension = StainExtension { part, look: look.clone(), pattern: pattern(), view: StainView::Normal };
+    let material = StainedMaterial { base: base_material(), extension };
+    spawn_stained(&mut studio.app, stained_plate(1.2, 120, |_| [0.0, 0.0, 0.0, 1.0]), material);
+    let picture = studio.shoot(Vec3::Z * 0.2, Vec3::ZERO);
+    let mut bent = 0;
+    for (place, footprint, pixel) in picture.places(0.2) {
+        let height = |p: Vec3| {
+            let s = StainSample { corrosion: 1.0, rest: p, ..default() };
+            look.metal(&s, &pattern().with_footprint(footprint)).height
+        };
+        let step = 2e-5;
+        let slope = |d: Vec3| (height(place + d * step) - height(place - d * step)) / (2.0 * step);
+        let normal = Vec3::new(-slope(Vec3::X), -slope(Vec3::Y), 1.0).normalize();
+        let found = [0, 1, 2].map(|i| Color::srgb_u8(pixel[i], 0, 0).to_linear().red * 2.0 - 1.0);
+        bent += usize::from(normal.z < 0.95);
+        assert!(Vec3::from_array(found).abs_diff_eq(normal, 0.12), "{place}: {found:?} instead of {normal}");
+    }
+    assert!(bent > 500, "there is relief: {bent}");
+}
+
+#[test]
+fn forward_prepass_and_deferred_draw_the_same() {
+    need_adapter!();
+    let mut pictures = Vec::new();
+    for (i, deferred) in [false, false, true].into_iter().enumerate() {
+        let mut studio = Studio::new(SIZE.0, SIZE.1, ".");
+        if deferred {
+            studio.app.insert_resource(DefaultOpaqueRendererMethod::deferred());
+            studio.camera_mut().insert((DepthPrepass, DeferredPrepass, NormalPrepass, MotionVectorPrepass));
+        } else if i == 1 {
+            studio.camera_mut().insert((DepthPrepass, NormalPrepass, MotionVectorPrepass));
+        }
+        let lights = |app: &mut App| {
+            app.world_mut()
+                .query::<&mut DirectionalLight>()
+                .iter_mut(app.world_mut())
+                .for_each(|mut light| light.shadow_maps_enabled = true)
+        };
+        lights(&mut studio.app);
+        for (x, part) in [(-0.11, StainPart::Film), (0.0, StainPart::Back), (0.11, StainPart::Metal)] {
+            let extension = StainExtension { part, pattern: pattern(), ..default() };
+            let material = StainedMaterial { base: base_material(), extension };
+            let plate = spawn_stained(&mut studio.app, stained_plate(0.1, 40, |p| fields(p * 3.0)), material);
+            studio.app.world_mut().entity_mut(plate).insert(Transform::from_xyz(x, 0.0, 0.0));
+        }
+        let picture = studio.shoot(Vec3::new(0.0, 0.1, 0.45), Vec3::ZERO);
+        save(&picture, &format!("pass_{i}"));
+        pictures.push(picture);
+    }
+    for (name, picture) in [("prepass", &pictures[1]), ("deferred", &pictures[2])] {
+        let (psnr, pixels) = pictures[0].psnr(picture);
+        println!("{name}: {psnr:.1} dB over {pixels} pixels");
+        // The deferred pass keeps 8 bits of colour and roughness.
+        assert!(psnr > 32.0 && pixels > 10_000, "{name}: {psnr:.1} dB");
+    }
+}
