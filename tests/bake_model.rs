@@ -126,7 +126,7 @@ fn stains_are_in_the_textures() {
     let [r, g, b] = mean_color(&document, &blob, "paint");
     assert!(r < 190.0 && r - b > 5.0 && g < r, "dusty and rusty: {r} {g} {b}");
     let [r, g, b] = mean_color(&document, &blob, "primer");
-    assert!(r > 1.5 * g && g > b, "red-brown: {r} {g} {b}");
+    assert!(r > 1.15 * g && g > 1.15 * b, "rust creeps in: {r} {g} {b}");
 
     let again = run("0.9", "again.glb").1;
     assert_eq!(blob, again, "the same run gives the same bytes");
@@ -243,7 +243,8 @@ fn real_models_age_and_open_elsewhere() {
         }
         let input = path.to_str().expect("a name");
         for triangles in ["keep", "1500"] {
-            let arguments = [input, "--triangles", triangles, "--out", "out.glb", "--steps", "25"];
+            let arguments =
+                [input, "--triangles", triangles, "--out", "out.glb", "--steps", "25", "--texture-size", "256"];
             let stats = stats(folder.path(), &[&arguments[..], &["--set", "deform.sweeps_per_age=100"]].concat());
             let last = stats["timeline"].as_array().and_then(|t| t.last()).expect("an entry").clone();
             assert!(number(&last["separated"]) > 0.3, "{input} {triangles}: {last}");

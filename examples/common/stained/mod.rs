@@ -51,12 +51,12 @@ pub use kept::{move_to_second, sets as texture_sets, without_baked};
 
 /// Least and most texels along the side of a texture.
 pub const TEXTURE_SIZES: RangeInclusive<u32> = 64..=8192;
-/// Primer on the backs of flakes: red-brown.
+/// Primer on the backs of flakes, as a `Coating` has it by default.
 pub const PRIMER: SurfaceLook = SurfaceLook {
-    base_color: Vec3::new(0.133, 0.033, 0.020),
+    base_color: Vec3::new(0.263, 0.233, 0.187),
     metallic: 0.0,
-    roughness: 0.9,
-    reflectance: 0.5,
+    roughness: 0.85,
+    reflectance: 0.3,
     height: 0.0,
 };
 
