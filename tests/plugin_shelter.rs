@@ -158,7 +158,7 @@ fn meshes_of_one_prop_shelter_each_other() {
 }
 
 #[test]
-fn shelters_that_cannot_be_read_are_passed_over() {
+fn shelters_that_cannot_be_read_are_passed_over_until_they_can() {
     let mut app = app();
     app.insert_resource(RAIN);
     let mut mesh = Plane3d::new(Vec3::Y, Vec2::splat(9.0)).mesh().build();
@@ -166,10 +166,20 @@ fn shelters_that_cannot_be_read_are_passed_over() {
     mesh.take_gpu_data().expect("the data");
     let handle = add_mesh(&mut app, mesh);
     app.world_mut().spawn((Mesh3d(handle), Transform::from_xyz(0.0, 1.0, 0.0), RainShelter));
+    // One that is still to be made.
+    let coming = app.world().resource::<Assets<Mesh>>().reserve_handle();
+    app.world_mut().spawn((Mesh3d(coming.clone()), Transform::from_xyz(0.0, 1.0, 0.0), RainShelter));
     let film = spawn_lying(&mut app, 6, quick_coating());
     wait_for_films(&mut app, 1);
     take_steps_held(&mut app, 5);
     assert_eq!(*exposure(&app, film), Exposure::default());
+    let roof = Plane3d::new(Vec3::Y, Vec2::splat(9.0)).mesh().build();
+    app.world_mut().resource_mut::<Assets<Mesh>>().insert(&coming, roof).expect("a place for it");
+    update_until(&mut app, |app| *exposure(app, film) != Exposure::default());
+    let mut meshes = app.world_mut().resource_mut::<Assets<Mesh>>();
+    let away = Mesh::clone(meshes.get(&coming).expect("a roof")).translated_by(Vec3::X * 30.0);
+    meshes.insert(&coming, away).expect("its place");
+    update_until(&mut app, |app| *exposure(app, film) == Exposure::default());
 }
 
 #[test]
