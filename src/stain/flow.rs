@@ -14,7 +14,7 @@ const SAME_PULL: f32 = 1e-3;
 /// The ways of run-off. Each is found when it is first needed and kept until connectivity there or the pull changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Flow {
-    /// Gravity and wind that the ways were found for.
+    /// Gravity and wind that the ways were found for; zero before there is any.
     pub pull: Vec3,
     /// Sideways spread that the ways were found for, in metres after one metre.
     spread: f32,
@@ -39,7 +39,6 @@ pub(super) struct Flow {
 impl Flow {
     pub fn new(vertices: usize) -> Self {
         Self {
-            pull: Vec3::NAN,
             order: (0..vertices as u32).collect(),
             ranks: (0..vertices as u32).collect(),
             awake: vec![0; vertices.div_ceil(64)],
