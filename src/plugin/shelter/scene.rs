@@ -15,7 +15,7 @@ use bevy::{
     log::warn,
     math::{Affine3A, Vec3},
     mesh::{Mesh, Mesh3d, skinning::SkinnedMesh},
-    platform::collections::{HashMap, HashSet},
+    platform::collections::{HashMap, HashSet, hash_map::Entry},
     tasks::{AsyncComputeTaskPool, Task, futures::check_ready},
     transform::components::GlobalTransform,
 };
@@ -117,15 +117,16 @@ impl ShelterScene {
     fn follow(&mut self, mut found: Vec<Piece>, assets: &Assets<Mesh>, server: Option<&AssetServer>) {
         self.ready = true;
         for piece in &mut found {
-            if !self.meshes.contains_key(&piece.mesh)
-                && let Some(tree) = begin_tree(piece, assets, server)
-            {
-                self.version += 1;
-                self.meshes.insert(piece.mesh, ShelterMesh { version: self.version, tree });
-            }
-            let Some(mesh) = self.meshes.get_mut(&piece.mesh) else {
-                self.ready = false;
-                continue;
+            let mesh = match self.meshes.entry(piece.mesh) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let Some(tree) = begin_tree(piece, assets, server) else {
+                        self.ready = false;
+                        continue;
+                    };
+                    self.version += 1;
+                    new.insert(ShelterMesh { version: self.version, tree })
+                }
             };
             piece.version = mesh.version;
             if let Tree::Growing(task) = &mut mesh.tree {
