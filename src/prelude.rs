@@ -4,8 +4,8 @@ pub use crate::{
     film::build::{BuildWarning, FilmResolution},
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
-        CoatingStep, CoatingSystems, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack, MetalLook,
-        PieceFallen, SettingsSource, StainDisplay,
+        CoatingStep, CoatingSystems, CoatingWeather, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack,
+        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter, StainDisplay,
     },
     settings::CoatingSettings,
     shown::look::StainLook,

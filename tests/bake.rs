@@ -1,64 +1,15 @@
-//! The `bake` example from outside: exit codes, figures, files, and the aged model in another reader. Includes the
-//! example's modules too, so that their unit tests run.
+//! The `bake` example from outside: exit codes, figures and files. Includes the example's modules too, so that their
+//! unit tests run.
 
 #[path = "../examples/common/mod.rs"]
 mod common;
+#[path = "common/tool.rs"]
+mod tool;
 
-use std::{
-    collections::BTreeSet,
-    fs,
-    path::{Path, PathBuf},
-    process::{Command, Output},
-};
+use std::{collections::BTreeSet, fs};
 
 use serde_json::{Value, json};
-use tempfile::TempDir;
-
-/// The example, which cargo builds before it runs tests: beside the folder of this test.
-fn tool() -> PathBuf {
-    let test = std::env::current_exe().expect("a path of the test");
-    let profile = test.ancestors().nth(2).expect("a folder of the profile");
-    let tool = profile.join("examples").join(format!("bake{}", std::env::consts::EXE_SUFFIX));
-    assert!(tool.is_file(), "{} is missing: cargo build --example bake", tool.display());
-    tool
-}
-
-fn bake(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(tool()).args(arguments).current_dir(folder).output().expect("the tool starts")
-}
-
-/// Runs the tool, which must succeed.
-fn baked(folder: &Path, arguments: &[&str]) -> Output {
-    let output = bake(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    output
-}
-
-fn stats(folder: &Path, arguments: &[&str]) -> Value {
-    baked(folder, &[arguments, &["--stats", "stats.json"]].concat());
-    serde_json::from_slice(&fs::read(folder.join("stats.json")).expect("figures")).expect("JSON")
-}
-
-fn folder() -> TempDir {
-    TempDir::new().expect("a folder")
-}
-
-/// Names of the files in a folder.
-fn files(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("a folder");
-    entries.map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned()).collect()
-}
-
-fn keys(value: &Value) -> Vec<&str> {
-    value.as_object().expect("an object").keys().map(String::as_str).collect()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-/// Few steps and sweeps, for tests that need some cracks but no beauty.
-const QUICK: [&str; 4] = ["--steps", "60", "--set", "deform.sweeps_per_age=300"];
+use tool::{QUICK, bake, baked, files, folder, keys, number, stats, write_two_squares};
 
 #[test]
 fn figures_have_their_layout_and_agree_with_each_other() {
@@ -108,6 +59,13 @@ fn figures_have_their_layout_and_agree_with_each_other() {
         "strain_rms",
         "strain_max",
         "lift_p90",
+        "rust_emitted",
+        "rust_wet",
+        "rust_stained",
+        "rust_dripped",
+        "sources",
+        "dust_mean",
+        "moisture_mean",
     ];
     assert_eq!(names, expected.into_iter().collect());
     for name in ["straightness", "strain_rms", "strain_max", "lift_p90"] {
@@ -119,6 +77,13 @@ fn figures_have_their_layout_and_agree_with_each_other() {
         assert!(grows && number(&timeline[0][name]) == 0.0, "{name} is cumulative");
     }
     assert!(number(&timeline[19]["separated"]) > 0.3, "{}", timeline[19]);
+    for entry in timeline {
+        let of = |name: &str| number(&entry[name]);
+        let accounted = of("rust_wet") + of("rust_stained") + of("rust_dripped");
+        assert!((of("rust_emitted") - accounted).abs() <= 1e-3 * accounted, "{entry}");
+        assert!((0.0..=1.0).contains(&of("dust_mean")) && of("moisture_mean") == 0.0, "{entry}");
+    }
+    assert!(number(&timeline[19]["rust_stained"]) > 0.0 && number(&timeline[19]["sources"]) > 0.0, "{}", timeline[19]);
     let digest = stats["digest"].as_str().expect("text");
     assert!(digest.len() == 64 && digest.bytes().all(|c| c.is_ascii_hexdigit()), "{digest}");
 }
@@ -156,6 +121,19 @@ fn bad_usage_is_2() {
         &["plate:100", "--gravity", "0,0,0"],
         &["plate:100", "--gravity", "0,-1"],
         &["plate:100", "--gravity", "0,nan,1"],
+        &["plate:100", "--wind", "0,1"],
+        &["plate:100", "--wind", "0,200,0"],
+        &["plate:100", "--gusts", "-0.1"],
+        &["plate:100", "--gusts", "11"],
+        &["plate:100", "--rain", "0,-1.1,0"],
+        &["plate:100", "--rain", "0,inf,0"],
+        &["plate:100", "--sun", "1,1,1"],
+        &["plate:100", "--texture-size", "63"],
+        &["plate:100", "--texture-size", "8193"],
+        &["plate:100", "--texture-size", "-256"],
+        &["plate:100", "--texture-size", "big"],
+        &["plate:100", "--texture-size", "256", "--vertex-colors"],
+        &["plate:100", "--no-stains", "--vertex-colors"],
         &["plate:100", "--out", "model.gltf"],
         &["plate:100", "--out", "same", "--stats", "same"],
         &["plate:100", "plate:100"],
@@ -175,6 +153,8 @@ fn numbers_may_be_negative_where_they_make_sense() {
     let quick = ["plate:20", "--age", "0"];
     baked(folder.path(), &[&quick[..], &["--gravity", "-3,0.5,0"]].concat());
     baked(folder.path(), &[&quick[..], &["--gravity=0,-1e38,1e38"]].concat());
+    let weather = ["--wind", "-0.5,0,2", "--gusts", "0.3", "--rain", "0,-0.6,-0.8", "--sun", "-0.1,-0.2,0"];
+    baked(folder.path(), &[&quick[..], &weather[..]].concat());
 }
 
 #[test]
@@ -238,13 +218,15 @@ fn the_dump_has_one_row_a_vertex_in_one_id_space() {
     let text = fs::read_to_string(folder.path().join("dump.csv")).expect("a dump");
     let mut lines = text.lines();
     let header = "id,original,live,rest_x,rest_y,rest_z,normal_x,normal_y,normal_z,x,y,z,separated_age,border,\
-                  mean_dihedral";
+                  mean_dihedral,rust_wet,rust_stained,source,past_source,dust,moisture,area,metal_wet,metal_stained,\
+                  metal_dust,metal_moisture,metal_area,corrosion";
     assert_eq!(lines.next(), Some(header));
+    let column = |name: &str| header.split(',').position(|column| column == name).expect("a column");
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let field = |row: &[&str], i: usize| row[i].parse::<f64>().expect("a number");
     let (mut originals, mut live, mut separated) = (0, 0, BTreeSet::new());
     for (i, row) in rows.iter().enumerate() {
-        assert_eq!(row.len(), 15, "row {i}");
+        assert_eq!(row.len(), 28, "row {i}");
         assert_eq!(field(row, 0), i as f64, "ids count up");
         let original = field(row, 1) as usize;
         assert!(original <= i && rows[original][1] == rows[original][0], "row {i}");
@@ -261,7 +243,32 @@ fn the_dump_has_one_row_a_vertex_in_one_id_space() {
         // Flat squares: every inner edge has an angle of pi.
         assert!(row[14].is_empty() || (field(row, 14) - std::f64::consts::PI).abs() < 1e-3, "row {i}");
     }
+    // Stains add up to the figures.
+    let value = |row: &[&str], name: &str| field(row, column(name));
+    let mut sums = [0.0f64; 5];
+    for row in &rows {
+        let is_live = row[2] == "1";
+        assert!(is_live || value(row, "area") == 0.0, "what is gone stands for no film: {row:?}");
+        sums[0] += value(row, "area") * value(row, "rust_wet");
+        sums[1] += value(row, "area") * value(row, "rust_stained");
+        sums[2] += value(row, "source");
+        sums[3] += if is_live { value(row, "dust") } else { 0.0 };
+        assert!(value(row, "source") <= value(row, "past_source"));
+        let metal = &row[column("metal_wet")..];
+        if row[0] == row[1] {
+            sums[0] += value(row, "metal_area") * value(row, "metal_wet");
+            sums[1] += value(row, "metal_area") * value(row, "metal_stained");
+            sums[4] += value(row, "corrosion");
+        } else {
+            assert!(metal.iter().all(|cell| cell.is_empty()), "duplicates have no metal: {row:?}");
+        }
+    }
     let last = stats["timeline"].as_array().and_then(|t| t.last()).expect("an entry").clone();
+    let expected = ["rust_wet", "rust_stained", "sources"].map(|name| number(&last[name]));
+    for (sum, expected) in sums.iter().zip(expected) {
+        assert!((sum - expected).abs() <= 1e-5 * expected.max(1e-6), "{sums:?} {last}");
+    }
+    assert!((sums[3] / live as f64 - number(&last["dust_mean"])).abs() < 1e-6 && sums[4] > 0.0, "{sums:?} {last}");
     assert_eq!(originals, stats["film"]["vertices"].as_u64().expect("a count"));
     assert_eq!(live, last["vertices"].as_u64().expect("a count"));
     assert!((separated.len() as f64 / originals as f64 - number(&last["separated"])).abs() < 1e-9);
@@ -284,127 +291,6 @@ fn figures_of_several_meshes_are_added_up() {
     assert_eq!(film["border_loops"], 2);
 }
 
-/// Two squares, the second three times as large, mirrored and far away; a texture, and an extension nobody knows.
-fn write_two_squares(folder: &Path) {
-    let mut binary: Vec<u8> = Vec::new();
-    for x in [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 0., 1., 1., 1., 1., 0., 0., 0f32] {
-        binary.extend(x.to_le_bytes());
-    }
-    binary.extend([0u8, 1, 2, 0, 2, 3]);
-    let document = json!({
-        "asset": { "version": "2.0", "copyright": "nobody" },
-        "extensionsUsed": ["KHR_texture_transform", "VENDOR_glitter"],
-        "scene": 0,
-        "scenes": [{ "nodes": [0, 1] }],
-        "nodes": [
-            { "name": "small", "mesh": 0 },
-            { "name": "large", "mesh": 0, "scale": [-3.0, 3.0, 3.0], "translation": [-5.0, 0.0, 0.0] }
-        ],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "indices": 2, "material": 0 }] }],
-        "materials": [{
-            "name": "enamel",
-            "doubleSided": true,
-            "pbrMetallicRoughness": { "baseColorTexture": {
-                "index": 0, "extensions": { "KHR_texture_transform": { "scale": [2.0, 2.0] } }
-            } },
-            "extensions": { "VENDOR_glitter": { "amount": 3 } }
-        }],
-        "textures": [{ "sampler": 0, "source": 0 }],
-        "samplers": [{ "wrapS": 33071 }],
-        "images": [{ "uri": "a%20texture.png", "name": "enamel" }],
-        "accessors": [
-            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] },
-            { "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2" },
-            { "bufferView": 2, "componentType": 5121, "count": 6, "type": "SCALAR" }
-        ],
-        "bufferViews": [
-            { "buffer": 0, "byteLength": 48 },
-            { "buffer": 0, "byteOffset": 48, "byteLength": 32 },
-            { "buffer": 0, "byteOffset": 80, "byteLength": 6 }
-        ],
-        "buffers": [{ "uri": "two.bin", "byteLength": 86 }]
-    });
-    fs::write(folder.join("two.gltf"), document.to_string()).expect("a file");
-    fs::write(folder.join("two.bin"), binary).expect("a file");
-    fs::write(folder.join("a texture.png"), TEXTURE).expect("a file");
-}
-
-/// Not an image; nobody looks.
-const TEXTURE: &[u8] = b"\x89PNG\r\n\x1a\n and the rest";
-
-/// The aged model in the `gltf` crate, which validates what it reads.
-fn read_back(path: &Path) -> (gltf::Document, Vec<u8>) {
-    let bytes = fs::read(path).expect("a model");
-    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).expect("valid glTF");
-    (document, blob.expect("a binary chunk"))
-}
-
-/// Checks every vertex of an aged model; gives the number of triangles of each material.
-fn check_model(document: &gltf::Document, blob: &[u8]) -> Vec<(String, usize)> {
-    let mut triangles = Vec::new();
-    for node in document.default_scene().expect("a scene").nodes() {
-        for primitive in node.mesh().expect("a mesh").primitives() {
-            let reader = primitive.reader(|_| Some(blob));
-            let positions: Vec<_> = reader.read_positions().expect("positions").collect();
-            let normals: Vec<_> = reader.read_normals().expect("normals").collect();
-            let indices: Vec<_> = reader.read_indices().expect("indices").into_u32().collect();
-            assert!(indices.iter().all(|&i| (i as usize) < positions.len()) && indices.len() % 3 == 0);
-            assert_eq!(positions.len(), normals.len());
-            assert!(positions.iter().flatten().all(|x| x.is_finite()));
-            let unit = |n: &[f32; 3]| (n.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-3;
-            assert!(normals.iter().all(unit));
-            let bounds = primitive.bounding_box();
-            for axis in 0..3 {
-                let lowest = positions.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min);
-                let highest = positions.iter().map(|p| p[axis]).fold(f32::NEG_INFINITY, f32::max);
-                assert_eq!((bounds.min[axis], bounds.max[axis]), (lowest, highest));
-            }
-            let material = primitive.material().name().unwrap_or("").to_owned();
-            triangles.push((material, indices.len() / 3));
-        }
-    }
-    triangles
-}
-
-#[test]
-fn the_aged_model_opens_elsewhere_with_its_texture() {
-    let folder = folder();
-    write_two_squares(folder.path());
-    let arguments = ["two.gltf", "--triangles", "600", "--out", "out.glb", "--age", "0.8"];
-    baked(folder.path(), &[&arguments[..], &QUICK[..]].concat());
-    let (document, blob) = read_back(&folder.path().join("out.glb"));
-    assert_eq!(document.as_json().asset.copyright.as_deref(), Some("nobody"));
-    let names: Vec<_> = document.nodes().map(|node| node.name().unwrap_or("").to_owned()).collect();
-    assert_eq!(names, ["small", "large"]);
-    let triangles = check_model(&document, &blob);
-    let of = |name: &str| triangles.iter().filter(|(material, _)| material == name).map(|(_, n)| n).sum::<usize>();
-    let (paint, primer, metal) = (of("enamel"), of("primer"), of("rusted metal"));
-    assert!(primer > 0 && primer <= paint && metal >= primer, "{triangles:?}");
-
-    // The texture, its transform and what nobody knows came along.
-    let image = document.images().next().expect("an image");
-    let gltf::image::Source::View { view, mime_type } = image.source() else { panic!("the image is not embedded") };
-    assert_eq!((&blob[view.offset()..][..view.length()], mime_type), (TEXTURE, "image/png"));
-    let enamel = document.materials().next().expect("a material");
-    let texture = enamel.pbr_metallic_roughness().base_color_texture().expect("a texture");
-    assert_eq!(texture.texture_transform().expect("a transform").scale(), [2.0, 2.0]);
-    let text = fs::read(folder.path().join("out.glb")).expect("a model");
-    assert!(String::from_utf8_lossy(&text).contains("VENDOR_glitter"));
-
-    // The prop lies where it lay: the large square on the far side, and textures on their place.
-    let large = document.nodes().nth(1).and_then(|node| node.mesh()).expect("a mesh");
-    let paint = large.primitives().next().expect("paint");
-    let (translation, ..) = document.nodes().nth(1).expect("a node").transform().decomposed();
-    let reader = paint.reader(|_| Some(&blob));
-    let uvs = reader.read_tex_coords(0).expect("texture coordinates").into_f32();
-    for (p, [u, v]) in reader.read_positions().expect("positions").zip(uvs) {
-        let p = [p[0] + translation[0], p[1] + translation[1]];
-        assert!(p[0] < -4.5 && p[0] > -8.5, "{p:?}");
-        // The film bends, but not by half of the plate.
-        assert!((-5.0 - 3.0 * u - p[0]).abs() < 0.5 && (3.0 * (1.0 - v) - p[1]).abs() < 0.5, "{p:?} has {u} {v}");
-    }
-}
-
 /// Rounding far from the scene's origin once broke the rule that nothing lies below its plane.
 #[test]
 fn props_far_from_the_origin_age_like_near_ones() {
@@ -416,36 +302,27 @@ fn props_far_from_the_origin_age_like_near_ones() {
     assert_eq!(run("two.gltf")["digest"], run("far.gltf")["digest"]);
 }
 
+/// A square roof a metre over a square floor of half its size.
 #[test]
-fn a_fresh_model_has_neither_primer_nor_metal() {
+fn a_model_shelters_itself_from_rain() {
     let folder = folder();
-    baked(folder.path(), &["plate:200", "--age", "0", "--out", "fresh.glb"]);
-    let (document, blob) = read_back(&folder.path().join("fresh.glb"));
-    assert_eq!(check_model(&document, &blob), [("paint".to_owned(), 200)]);
-}
-
-/// Every model of the project's data, if it is there.
-#[test]
-fn real_models_age_and_open_elsewhere() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let Ok(entries) = fs::read_dir(&data) else {
-        eprintln!("skipped: {} is not there", data.display());
-        return;
+    let square = |y: f32, half: f32| {
+        [[-half, -half], [-half, half], [half, half], [half, -half]].map(|[x, z]| format!("v {x} {y} {z}\n")).concat()
     };
-    let folder = folder();
-    for entry in entries {
-        let path = entry.expect("a file").path();
-        if !path.extension().is_some_and(|ending| ending == "glb" || ending == "obj") {
-            continue;
-        }
-        let input = path.to_str().expect("a name");
-        for triangles in ["keep", "1500"] {
-            let arguments = [input, "--triangles", triangles, "--out", "out.glb", "--steps", "25"];
-            let stats = stats(folder.path(), &[&arguments[..], &["--set", "deform.sweeps_per_age=100"]].concat());
-            let last = stats["timeline"].as_array().and_then(|t| t.last()).expect("an entry").clone();
-            assert!(number(&last["separated"]) > 0.3, "{input} {triangles}: {last}");
-            let (document, blob) = read_back(&folder.path().join("out.glb"));
-            assert!(check_model(&document, &blob).len() >= 2, "{input} {triangles}");
-        }
-    }
+    let obj = format!("o floor\n{}f 1 2 3 4\no roof\n{}f 5 6 7 8\n", square(0.0, 0.5), square(1.0, 1.0));
+    fs::write(folder.path().join("roof.obj"), obj).expect("a file");
+    let arguments = ["roof.obj", "--triangles", "600", "--age", "0.5", "--rain", "0,-1,0", "--dump", "dump.csv"];
+    let stats = stats(folder.path(), &[&arguments[..], &QUICK[..]].concat());
+    let last = stats["timeline"].as_array().and_then(|t| t.last()).expect("an entry").clone();
+    assert!(number(&last["moisture_mean"]) > 0.1, "{last}");
+    let text = fs::read_to_string(folder.path().join("dump.csv")).expect("a dump");
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let moisture = |low: f64, high: f64| -> Vec<f64> {
+        let number = |row: &[&str], i: usize| row[i].parse::<f64>().expect("a number");
+        let there = rows.iter().filter(|row| row[2] == "1" && (low..high).contains(&number(row, 4)));
+        there.map(|row| number(row, 20)).collect()
+    };
+    let (floor, roof) = (moisture(-0.1, 0.5), moisture(0.5, 1.1));
+    assert!(floor.len() > 20 && floor.iter().all(|&m| m == 0.0), "{floor:?}");
+    assert!(roof.len() > 20 && roof.iter().all(|&m| m > 0.3), "{roof:?}");
 }

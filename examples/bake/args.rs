@@ -16,12 +16,15 @@ use clap::{
 
 use crate::{
     Failure,
-    common::{BakeOptions, Input, MAX_TRIANGLES, Resolution},
+    common::{BakeOptions, Input, MAX_TRIANGLES, Resolution, StainOutput, TEXTURE_SIZES},
 };
 
 /// Oldest age and most steps that are taken seriously: a typing error should not run for a year.
 const MAX_AGE: f64 = 100.0;
 const MAX_STEPS: u32 = 1_000_000;
+/// Strongest wind, in pulls of gravity, and widest gusts, in metres a metre: as wide as a setting's spread.
+const MAX_WIND: f32 = 100.0;
+const MAX_GUSTS: f32 = 10.0;
 
 /// Ages a painted prop without a window or a graphics adapter
 #[derive(Debug, Parser)]
@@ -37,9 +40,21 @@ pub struct Args {
     /// A .glb, .gltf or .obj file, or a test piece: plate:3012, curved:3005, disk:4047
     #[arg(value_parser = OsStringValueParser::new().try_map(|text: OsString| Input::parse(&text)))]
     pub input: Input,
-    /// Write the aged model: paint with its own texture, backs of flakes, bare metal
+    /// Write the aged model: paint, backs of flakes, bare metal, all with their stains
     #[arg(long, value_name = "FILE.glb", value_parser = OsStringValueParser::new().try_map(parse_glb))]
     pub out: Option<PathBuf>,
+    /// Texels along the side of the aged model's textures: base colour, metalness and roughness, normals
+    #[arg(
+        long, value_name = "N", default_value_t = 1024, allow_hyphen_values = true,
+        value_parser = parse_texture_size, conflicts_with_all = ["vertex_colors", "no_stains"]
+    )]
+    texture_size: u32,
+    /// Write stains as vertex colours, and leave textures as they are
+    #[arg(long, conflicts_with = "no_stains")]
+    vertex_colors: bool,
+    /// Write no stains: materials and textures as they are
+    #[arg(long)]
+    no_stains: bool,
     /// Write figures of the run
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
@@ -76,6 +91,27 @@ pub struct Args {
         value_parser = parse_gravity
     )]
     gravity: Vec3,
+    /// Where the wind blows, in scene space; as long as it pulls at run-off: 1 like gravity
+    #[arg(
+        long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true,
+        value_parser = |text: &str| parse_vector(text, f64::from(MAX_WIND))
+    )]
+    wind: Vec3,
+    /// How far gusts spread run-off sideways: metres after one metre
+    #[arg(long, value_name = "M", default_value = "0", allow_hyphen_values = true, value_parser = parse_gusts)]
+    gusts: f32,
+    /// Where rain falls, in scene space; as long as there is rain: 0 to 1
+    #[arg(
+        long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true,
+        value_parser = |text: &str| parse_vector(text, 1.0)
+    )]
+    rain: Vec3,
+    /// Where sunlight falls, in scene space; as long as it is strong: 0 to 1
+    #[arg(
+        long, value_name = "X,Y,Z", default_value = "0,0,0", allow_hyphen_values = true,
+        value_parser = |text: &str| parse_vector(text, 1.0)
+    )]
+    sun: Vec3,
 }
 
 impl Args {
@@ -92,6 +128,15 @@ impl Args {
     /// The files to be written.
     pub fn outputs(&self) -> impl Iterator<Item = &Path> {
         [&self.out, &self.dump, &self.stats].into_iter().flatten().map(PathBuf::as_path)
+    }
+
+    /// How stains come into the aged model.
+    pub fn stains(&self) -> StainOutput {
+        match (self.vertex_colors, self.no_stains) {
+            (true, _) => StainOutput::VertexColors,
+            (_, true) => StainOutput::None,
+            _ => StainOutput::Textures(self.texture_size),
+        }
     }
 
     /// How to age. Ends the program with code 2 on an unknown preset or setting.
@@ -117,7 +162,13 @@ impl Args {
             age: self.age,
             steps: self.steps,
             seed: self.seed,
-            environment: Environment::still(self.gravity),
+            environment: Environment {
+                gravity: self.gravity,
+                wind: self.wind,
+                gusts: self.gusts,
+                rain: self.rain,
+                sun: self.sun,
+            },
         })
     }
 }
@@ -152,14 +203,38 @@ fn parse_resolution(text: &str) -> Result<Resolution, String> {
     count.map(Resolution::Triangles).ok_or_else(|| format!("neither `keep` nor a number from 4 to {MAX_TRIANGLES}"))
 }
 
+fn parse_texture_size(text: &str) -> Result<u32, String> {
+    let size = text.parse().ok().filter(|size| TEXTURE_SIZES.contains(size));
+    size.ok_or_else(|| format!("not a number from {} to {}", TEXTURE_SIZES.start(), TEXTURE_SIZES.end()))
+}
+
 fn parse_gravity(text: &str) -> Result<Vec3, &'static str> {
-    let parts: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
-    let &[x, y, z] = parts.as_slice() else { return Err("write it as three numbers, like 0,-1,0") };
-    if text.split(',').count() != 3 || ![x, y, z].iter().all(|x| x.is_finite()) {
-        return Err("write it as three finite numbers, like 0,-1,0");
-    }
+    let direction = parse_numbers(text).ok_or("write it as three finite numbers, like 0,-1,0")?;
     // By the largest part first, so that no square can overflow.
-    let direction = DVec3::new(x, y, z);
     let largest = direction.abs().max_element();
     (direction / largest).try_normalize().map(|g| g.as_vec3()).ok_or("gravity needs a direction")
+}
+
+/// A vector that is at most so long.
+fn parse_vector(text: &str, longest: f64) -> Result<Vec3, String> {
+    let vector = parse_numbers(text).ok_or("write it as three finite numbers, like 0.3,0,-0.2")?;
+    // A little more is rounding: 0.6,-0.8,0 is one long.
+    if vector.length() <= longest * 1.000_001 {
+        Ok(vector.as_vec3())
+    } else {
+        Err(format!("its length is more than {longest}"))
+    }
+}
+
+fn parse_gusts(text: &str) -> Result<f32, String> {
+    let gusts = text.parse::<f32>().ok().filter(|gusts| (0.0..=MAX_GUSTS).contains(gusts));
+    gusts.ok_or_else(|| format!("not a number from 0 to {MAX_GUSTS}"))
+}
+
+/// Three finite numbers between commas.
+fn parse_numbers(text: &str) -> Option<DVec3> {
+    let parts: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
+    let &[x, y, z] = parts.as_slice() else { return None };
+    let whole = text.split(',').count() == 3;
+    Some(DVec3::new(x, y, z)).filter(|vector| whole && vector.is_finite())
 }

@@ -43,7 +43,7 @@ fn run(args: &Args, stopwatch: Stopwatch) -> Result<(), Failure> {
 
     let mut files = Staged::default();
     if let Some(path) = &args.out {
-        files.add(path, &common::aged_glb(&mut baked)?)?;
+        files.add(path, &common::aged_glb(&mut baked, args.stains())?)?;
     }
     if let Some(path) = &args.dump {
         files.add(path, common::dump_csv(&baked.props, &baked.films).as_bytes())?;

@@ -67,8 +67,8 @@ pub fn summary<'a>(origin: &str, stats: &Stats, files: impl Iterator<Item = &'a 
     );
     let _ = writeln!(
         out,
-        "{:.2} s: build {:.2}, fracture {:.2}, deformation {:.2}, meshes {:.2}, other {:.2}",
-        seconds.total, seconds.build, seconds.fracture, seconds.deform, seconds.mesh, seconds.other,
+        "{:.2} s: build {:.2}, fracture {:.2}, deformation {:.2}, stains {:.2}, meshes and textures {:.2}, other {:.2}",
+        seconds.total, seconds.build, seconds.fracture, seconds.deform, seconds.stain, seconds.mesh, seconds.other,
     );
     let _ = writeln!(out, "digest {}", stats.digest);
     for file in files {

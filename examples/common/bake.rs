@@ -11,6 +11,7 @@ use bevy_coating::{
 use super::{
     BakeError, MaterialLibrary, Model, Resolution, Stats, parallel,
     props::{Coated, Coating, Prop, coat},
+    shelter::shelter,
     stats::{FilmStats, InputStats, RunStats, SCHEMA},
     stopwatch::Stopwatch,
 };
@@ -110,6 +111,8 @@ pub fn bake(
     let coated = stopwatch.build(|| coat(&origin, meshes, &coating))?;
     let Coated { props, mut films, warnings: built } = coated;
     warnings.extend(built);
+
+    stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
     let film = FilmStats::of(&films);
     let timeline = age(&mut films, options, &mut stopwatch, progress);

@@ -2,7 +2,11 @@
 
 use std::fmt::Write;
 
-use bevy_coating::{film::VertexId, sim::FilmState};
+use bevy_coating::{
+    film::VertexId,
+    sim::FilmState,
+    stain::{RustSource, StainLayer},
+};
 use bevy_math::Vec3;
 
 use super::props::Prop;
@@ -21,9 +25,20 @@ use super::props::Prop;
 /// | `separated_age` | when it separated; empty while it is attached |
 /// | `border` | 1 on the film's border at rest and for duplicates, else 0 |
 /// | `mean_dihedral` | mean angle in radians, at rest, of the edges opposite to it (border edges left out); pi is flat, above is convex; empty without any |
+/// | `rust_wet`, `rust_stained` | rust on the film that runs off, and that has stained it for good: layers |
+/// | `source` | 1 while rust comes out at it, else 0 |
+/// | `past_source` | 1 if rust has ever come out at it, also now, else 0 |
+/// | `dust`, `moisture` | on the film: 0 to 1 |
+/// | `area` | film that it stands for: a third of each of its faces at rest, in square metres; 0 once it has none |
+/// | `metal_wet`, `metal_stained` | rust that came to lie on the metal below: layers; this and all that follows is empty for duplicates, which have no metal of their own |
+/// | `metal_dust`, `metal_moisture` | on the metal: 0 to 1 |
+/// | `metal_area` | metal that can be stained: what no film covers, in square metres |
+/// | `corrosion` | how far the metal itself has rusted: 0 bright to 1 rusted through |
 pub fn dump_csv(props: &[Prop], films: &[FilmState]) -> String {
     let mut csv = String::from(
-        "id,original,live,rest_x,rest_y,rest_z,normal_x,normal_y,normal_z,x,y,z,separated_age,border,mean_dihedral\n",
+        "id,original,live,rest_x,rest_y,rest_z,normal_x,normal_y,normal_z,x,y,z,separated_age,border,mean_dihedral,\
+         rust_wet,rust_stained,source,past_source,dust,moisture,area,\
+         metal_wet,metal_stained,metal_dust,metal_moisture,metal_area,corrosion\n",
     );
     let mut base = 0u64;
     for (prop, film) in props.iter().zip(films) {
@@ -45,14 +60,31 @@ pub fn dump_csv(props: &[Prop], films: &[FilmState]) -> String {
                 age if age.is_finite() => write!(csv, ",{age},{border},"),
                 _ => write!(csv, ",,{border},"),
             };
-            let _ = match dihedrals[original.index()] {
-                Some(angle) => writeln!(csv, "{angle}"),
-                None => writeln!(csv),
-            };
+            if let Some(angle) = dihedrals[original.index()] {
+                let _ = write!(csv, "{angle}");
+            }
+            write_stains(&mut csv, film, v);
         }
         base += topology.vertex_count() as u64;
     }
     csv
+}
+
+/// The columns of stains, and the end of the row.
+fn write_stains(csv: &mut String, film: &FilmState, v: VertexId) {
+    let (stains, i) = (&film.stains, v.index());
+    let source = stains.sources.get(i).copied().unwrap_or_default();
+    let (present, ever) = (u8::from(source == RustSource::Present), u8::from(source != RustSource::Never));
+    let StainLayer { wet, stained, dust, moisture, areas } = &stains.film;
+    let _ = write!(csv, ",{},{},{present},{ever},{},{},{}", wet[i], stained[i], dust[i], moisture[i], areas[i]);
+    // Metal has one entry an original vertex.
+    let StainLayer { wet, stained, dust, moisture, areas } = &stains.metal;
+    let _ = match stains.corrosion.get(i) {
+        Some(corrosion) => {
+            writeln!(csv, ",{},{},{},{},{},{corrosion}", wet[i], stained[i], dust[i], moisture[i], areas[i])
+        }
+        None => writeln!(csv, ",,,,,,"),
+    };
 }
 
 /// For each original vertex the mean dihedral at rest of the inner edges opposite to it.

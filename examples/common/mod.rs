@@ -13,7 +13,7 @@
 //! let model = common::read(&common::Input::File("sign.glb".into()), 0, true)?;
 //! let mut baked = common::bake(model, &common::BakeOptions::default(), stopwatch, &())?;
 //! let mut files = common::Staged::default();
-//! files.add("aged.glb", &common::aged_glb(&mut baked)?)?;
+//! files.add("aged.glb", &common::aged_glb(&mut baked, common::StainOutput::default())?)?;
 //! files.add("aged.json", baked.stats().to_json().as_bytes())?;
 //! files.commit()?;
 //! ```
@@ -32,6 +32,8 @@ mod obj;
 mod output;
 mod parallel;
 mod props;
+mod shelter;
+mod stained;
 mod stats;
 mod stopwatch;
 
@@ -43,5 +45,6 @@ pub use input::{Generator, Input, read};
 pub use model::{Image, MaterialLibrary, Model, ModelMesh, Slot};
 pub use output::Staged;
 pub use props::{MAX_TRIANGLES, Resolution};
+pub use stained::{StainOutput, TEXTURE_SIZES};
 pub use stats::Stats;
 pub use stopwatch::Stopwatch;

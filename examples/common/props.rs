@@ -37,6 +37,8 @@ pub struct Prop {
     pub slots: Vec<Slot>,
     /// The film at rest.
     pub built: BuiltFilm,
+    /// Seed of its film.
+    pub seed: u64,
 }
 
 /// Props with films, one to one.
@@ -73,14 +75,14 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, coating: &Coating) -> Result<C
 
     let mut coated = Coated::default();
     let mut nothing = None;
-    for Job { mesh, result, .. } in jobs {
+    for Job { mesh, result, seed, .. } in jobs {
         let ModelMesh { name, surface, origin: place, slots, .. } = mesh;
         let broken = |cause: &str| BakeError::Broken { origin: origin.into(), mesh: name.clone(), cause: cause.into() };
         match result {
             Some(Ok((built, film))) => {
                 coated.warnings.extend(built.warnings.iter().map(|w| format!("{name}: {}", warning(w))));
                 coated.films.push(film.ok_or_else(|| broken("its faces are no oriented manifold"))?);
-                coated.props.push(Prop { name, surface, origin: place, slots, built });
+                coated.props.push(Prop { name, surface, origin: place, slots, built, seed });
             }
             Some(Err(source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. }))) => {
                 coated.warnings.push(format!("{name}: left out: {source}"));

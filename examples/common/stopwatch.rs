@@ -10,15 +10,15 @@ use serde::{Deserialize, Serialize};
 pub struct Seconds {
     /// From start to end, with reading and writing.
     pub total: f64,
-    /// Making films of meshes.
+    /// Making films of meshes, and casting what shelters them.
     pub build: f64,
     /// Forces, separation, tearing, stripping, and setting of constraints.
     pub fracture: f64,
     /// PBD-2.
     pub deform: f64,
-    /// Making the meshes of the aged model.
+    /// Making the meshes and textures of the aged model.
     pub mesh: f64,
-    /// Stains.
+    /// Rust, dust and moisture.
     pub stain: f64,
     /// All else: reading, measuring, writing.
     pub other: f64,

@@ -89,6 +89,8 @@ pub struct CoatingStatus {
     pub films: usize,
     /// Films that took a step in the last frame.
     pub stepped: usize,
+    /// Films that owe steps, but wait until it is known what [shelters](super::Shelter) them.
+    pub casting: usize,
     /// Age of the youngest film; 0 without films.
     pub youngest: f64,
     /// Age of the oldest film; 0 without films.

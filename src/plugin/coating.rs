@@ -7,7 +7,7 @@ use bevy::{
     reflect::prelude::*,
 };
 
-use super::StainDisplay;
+use super::{Shelter, StainDisplay};
 use crate::{
     film::build::FilmResolution,
     settings::{CoatingSettings, SettingsError},
@@ -27,7 +27,7 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 /// the entity of the mesh. Where the film is ready, that entity has [`CoatedBy`](super::CoatedBy).
 ///
 /// The prop shows its own mesh until the film has been built in the background, and gets it back when the
-/// `Coating` is removed. `rate`, `paused`, `settings` and the looks may be changed at any time; changing any other
+/// `Coating` is removed. `rate`, `paused`, `settings`, `shelter` and the looks may be changed at any time; changing any other
 /// field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
@@ -46,6 +46,8 @@ pub struct Coating {
     pub start_age: f64,
     /// Steps per unit age. At least 1, default 1000. More is slower, not better: the result hardly depends on it.
     pub steps_per_age: u32,
+    /// What decides how much rain and sun reaches the prop. Default: [what stands around it](Shelter::Scene).
+    pub shelter: Shelter,
     /// Colour of the paint's back, seen where it curls. Default: a warm grey.
     pub primer: Color,
     /// Look of the metal under the paint.
@@ -66,6 +68,7 @@ impl Default for Coating {
             paused: false,
             start_age: 0.0,
             steps_per_age: DEFAULT_STEPS_PER_AGE,
+            shelter: Shelter::default(),
             primer: Color::srgb(0.55, 0.52, 0.47),
             metal: MetalLook::default(),
             stain_display: StainDisplay::default(),
@@ -116,6 +119,11 @@ impl Coating {
     /// Sets the steps per unit age.
     pub fn with_steps_per_age(self, steps_per_age: u32) -> Self {
         Self { steps_per_age, ..self }
+    }
+
+    /// Sets what decides how much rain and sun reaches the prop.
+    pub fn with_shelter(self, shelter: Shelter) -> Self {
+        Self { shelter, ..self }
     }
 
     /// Sets the colour of the paint's back.

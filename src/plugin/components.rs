@@ -61,6 +61,8 @@ pub struct FilmPace {
     pub(super) planned: u64,
     /// Steps taken in this frame.
     pub(super) taken: u64,
+    /// Whether the film waits until it is known what shelters it.
+    pub(super) held: bool,
     /// Whether the film takes the step that is under way.
     pub(super) due: bool,
     /// Whether the first crack has been reported.
@@ -78,6 +80,7 @@ impl FilmPace {
             requested: 0,
             planned: 0,
             taken: 0,
+            held: false,
             due: false,
             cracked,
         }

@@ -13,10 +13,20 @@ use bevy::{
 };
 
 use super::{
-    CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, FilmPace,
+    CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, CoatingWeather, FilmPace,
     components::{AwaitingFilm, FilmRefused, FilmSlot},
+    shelter::FilmShelter,
 };
-use crate::sim::FilmClock;
+use crate::{sim::FilmClock, stain::StainFields};
+
+/// What decides the steps of a film.
+type Films = QueryState<(
+    &'static mut FilmPace,
+    &'static FilmClock,
+    &'static GlobalTransform,
+    &'static mut FilmShelter,
+    &'static mut StainFields,
+)>;
 
 /// Plans the steps of this frame for every film and takes them.
 ///
@@ -24,7 +34,7 @@ use crate::sim::FilmClock;
 /// wherever the budget cuts the frame short.
 pub(super) fn advance(
     world: &mut World,
-    films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>,
+    films: &mut Films,
     waiting: &mut QueryState<(), With<AwaitingFilm>>,
     refused: &mut QueryState<(), With<FilmRefused>>,
     building: &mut QueryState<&FilmSlot>,
@@ -59,9 +69,10 @@ fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
 }
 
 /// Plans each film's steps; gives the largest number of them.
-fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>) -> u64 {
+fn plan(world: &mut World, films: &mut Films) -> u64 {
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
-    let gravity = world.resource::<CoatingGravity>().0;
+    let gravity = *world.resource::<CoatingGravity>();
+    let weather = *world.resource::<CoatingWeather>();
     let (age, target, requested) = {
         let mut clock = world.resource_mut::<CoatingClock>();
         let clock = clock.bypass_change_detection();
@@ -69,9 +80,12 @@ fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &G
         (age, clock.target_age, std::mem::take(&mut clock.requested_steps))
     };
     let mut rounds = 0;
-    for (mut pace, clock, transform) in films.iter_mut(world) {
+    for (mut pace, clock, transform, mut shelter, mut stains) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
-        pace.environment.gravity = (transform.rotation().inverse() * gravity).normalize_or_zero();
+        pace.environment = weather.environment(gravity, transform);
+        // What reaches a film is no stain, so nothing is to be shown anew.
+        shelter.bypass_change_detection().finish(stains.bypass_change_detection());
+        pace.held = shelter.holds_back(&pace.environment);
         pace.requested = pace.requested.saturating_add(requested);
         let owed = age * pace.rate * f64::from(clock.steps_per_age);
         if !pace.paused && owed > 0.0 {
@@ -88,25 +102,29 @@ fn plan(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &G
                 pace.requested = pace.requested.min(left);
             }
         }
-        pace.planned = planned;
+        pace.held &= planned > 0;
+        pace.planned = if pace.held { 0 } else { planned };
         pace.taken = 0;
-        rounds = rounds.max(planned);
+        rounds = rounds.max(pace.planned);
     }
     rounds
 }
 
 /// Books the steps that were taken, requested ones first, and drops what is owed beyond them.
-fn settle(world: &mut World, films: &mut QueryState<(&mut FilmPace, &FilmClock, &GlobalTransform)>) -> CoatingStatus {
+fn settle(world: &mut World, films: &mut Films) -> CoatingStatus {
     let mut status = CoatingStatus { youngest: f64::INFINITY, ..CoatingStatus::default() };
-    for (mut pace, clock, _) in films.iter_mut(world) {
+    for (mut pace, clock, ..) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.due = false;
         let requested = pace.taken.min(pace.requested);
         pace.requested -= requested;
         pace.owed -= (pace.taken - requested) as f64;
-        // What was planned but not taken is dropped; an infinite speed leaves nothing to carry.
-        pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
+        if !pace.held {
+            // What was planned but not taken is dropped; an infinite speed leaves nothing to carry.
+            pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
+        }
         status.films += 1;
+        status.casting += usize::from(pace.held);
         status.stepped += usize::from(pace.taken > 0);
         status.youngest = status.youngest.min(clock.age());
         status.oldest = status.oldest.max(clock.age());

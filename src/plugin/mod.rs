@@ -11,7 +11,9 @@ mod messages;
 mod reflect;
 mod report;
 mod schedule;
+mod shelter;
 mod step;
+mod weather;
 
 use bevy::{
     app::{App, Plugin, Update},
@@ -37,6 +39,8 @@ pub(crate) use diagnostics::CoatingTimings;
 pub use error::{CoatingError, CoatingFault};
 pub use messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen};
 pub use schedule::{CoatingStep, CoatingSystems};
+pub use shelter::{RainShelter, Shelter};
+pub use weather::CoatingWeather;
 
 use crate::CoatingSettingsPlugin;
 
@@ -79,6 +83,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<CoatingClock>()
             .init_resource::<CoatingBudget>()
             .init_resource::<CoatingGravity>()
+            .init_resource::<CoatingWeather>()
             .init_resource::<CoatingStatus>()
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
@@ -87,7 +92,7 @@ impl Plugin for CoatingWeatheringPlugin {
         diagnostics::add_diagnostics(app);
         schedule::add_step_schedule(app);
         attach::add_attachment(app);
-        app.add_systems(self.schedule, drive::advance.in_set(CoatingAdvance));
+        app.add_systems(self.schedule, (weather::check_weather, drive::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(crate::render::FilmDisplayPlugin);
     }
 }

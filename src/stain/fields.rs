@@ -64,7 +64,7 @@ pub struct RustBudget {
 }
 
 /// Exposure of each original vertex to the weather, 0 to 1: what nothing shelters. Which way the surface faces is not
-/// part of it. Empty: nothing shelters anything.
+/// part of it. Empty: nothing shelters anything; entries that are missing or no number count as 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposure {
     /// To rain.

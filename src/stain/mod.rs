@@ -5,6 +5,7 @@
 //! | rust | [`run_off`], after [`follow_fracture`] | VC 6.1, figs. 9 and 10 |
 //! | dust | [`settle_dust`] | VC 6.2, fig. 11 |
 //! | moisture | [`moisten`] | beyond the paper |
+//! | what rain and sun reach, before they are needed | [`exposure`] | beyond the paper |
 //!
 //! All directions and heights of run-off are those at rest. Stains change slowly, so they are advanced in ticks,
 //! [`TICKS_PER_AGE`] to a unit of age, however many steps that takes; only fracture is followed in every step. What a
@@ -14,6 +15,7 @@ mod copies;
 mod corrosion;
 mod dust;
 mod environment;
+pub mod exposure;
 mod fields;
 mod flow;
 mod follow;

@@ -99,7 +99,11 @@ impl Sky<'_> {
     /// dry faster than hollows, and all surfaces in the sun.
     fn tendency(&self, shape: Shape, original: VertexId, reach: f32, airing: f32) -> Tendency {
         let Self { settings, environment, exposure, dt } = *self;
-        let exposed = |exposure: &[f32]| exposure.get(original.index()).copied().unwrap_or(1.0).clamp(0.0, 1.0);
+        // Exposure may be a user's own.
+        let exposed = |exposure: &[f32]| match exposure.get(original.index()) {
+            Some(x) if x.is_finite() => x.clamp(0.0, 1.0),
+            _ => 1.0,
+        };
         let facing = |fall: Vec3| (-shape.normal.dot(fall)).clamp(0.0, 1.0);
         let ridge = 0.5 + 1.0 / (1.0 + ops::exp(-4.0 * (shape.dihedral - PI)));
         let sunlight = facing(environment.sun) * exposed(&exposure.sun);

@@ -1,8 +1,8 @@
 //! Writing an aged model as binary glTF 2.0.
 //!
-//! One node and mesh for each prop, moved to its place in the scene, with one primitive for each material: the prop's own on the film,
-//! primer on the backs of flakes, and rusted metal beneath. What is shown is made by `bevy_coating::shown`, as in a
-//! running game.
+//! One node and mesh for each prop, moved to its place in the scene, with one primitive for each material: the prop's
+//! own on the film, primer on the backs of flakes, and rusted metal beneath. What is shown is made by
+//! `bevy_coating::shown`, as in a running game; stains come into it by [`super::stained`].
 
 mod buffer;
 mod materials;
@@ -11,27 +11,50 @@ use bevy_coating::shown::ShownFilm;
 use bevy_math::Vec3;
 use serde_json::{Map, Value, json};
 
-use super::{BakeError, Baked, Slot, props::Prop};
+use super::{
+    BakeError, Baked,
+    stained::{Dressed, StainOutput, Textures, dress},
+};
 use buffer::BinaryChunk;
 use materials::Materials;
 
-/// The aged model as the bytes of a .glb file.
+/// The aged model as the bytes of a .glb file. What could not be done is added to the warnings.
 ///
 /// # Errors
 /// [`BakeError::TooLarge`].
-pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
-    let Baked { props, films, stopwatch, materials, .. } = baked;
+pub fn aged_glb(baked: &mut Baked, stains: StainOutput) -> Result<Vec<u8>, BakeError> {
+    let Baked { props, films, stopwatch, materials: library, warnings, .. } = baked;
     let shown: Vec<ShownFilm> = stopwatch.mesh(|| {
         let pairs = props.iter().zip(films.iter());
         pairs
             .map(|(prop, film)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
             .collect()
     });
+    let dressed: Vec<Dressed> = stopwatch.mesh(|| {
+        let mut textures = Textures::default();
+        let largest = films.iter().map(|film| film.mesh.geometry.rest_area).fold(0.0, f32::max);
+        let all = props.iter().zip(films.iter()).zip(&shown);
+        all.map(|((prop, film), shown)| {
+            let output = stains.for_share(film.mesh.geometry.rest_area / largest);
+            dress(prop, film, shown, library, &mut textures, output)
+        })
+        .collect()
+    });
+    warnings.extend(dressed.iter().flat_map(|dressed| dressed.warnings.iter().cloned()));
+
     let mut chunk = BinaryChunk::default();
-    let mut materials = Materials::new(materials);
+    let mut materials = Materials::new(library, dressed.iter().flat_map(|dressed| &dressed.primitives));
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
-    for (prop, shown) in props.iter().zip(&shown) {
-        let primitives = primitives(prop, shown, &mut chunk, &mut materials);
+    for (prop, dressed) in props.iter().zip(&dressed) {
+        let sheets: Vec<usize> = dressed.sheets.iter().map(|sheet| materials.add_sheet(&prop.name, sheet)).collect();
+        let primitives: Vec<Value> = dressed
+            .primitives
+            .iter()
+            .map(|primitive| {
+                let material = materials.of(primitive, &sheets);
+                chunk.primitive(&primitive.part, primitive.has, material)
+            })
+            .collect();
         if !primitives.is_empty() {
             let mut node = json!({ "name": prop.name, "mesh": meshes.len() });
             if let (true, Some(fields)) = (prop.origin != Vec3::ZERO, node.as_object_mut()) {
@@ -55,25 +78,6 @@ pub fn aged_glb(baked: &mut Baked) -> Result<Vec<u8>, BakeError> {
     materials.write(&mut chunk, &mut root);
     let bytes = chunk.finish(&mut root);
     assemble(&root, bytes).ok_or_else(|| BakeError::TooLarge { origin: baked.origin.clone() })
-}
-
-/// The primitives of one prop.
-fn primitives(prop: &Prop, shown: &ShownFilm, chunk: &mut BinaryChunk, materials: &mut Materials) -> Vec<Value> {
-    let mut primitives = Vec::new();
-    for (i, &slot) in prop.slots.iter().enumerate() {
-        if let Some(front) = shown.front(i).filter(|part| !part.is_empty()) {
-            primitives.push(chunk.primitive(front, slot, slot.material));
-        }
-    }
-    // Neither has a texture, so neither needs coordinates for one.
-    let plain = Slot::default();
-    if !shown.backs().is_empty() {
-        primitives.push(chunk.primitive(shown.backs(), plain, Some(materials.primer())));
-    }
-    if !shown.metal().is_empty() {
-        primitives.push(chunk.primitive(shown.metal(), plain, Some(materials.metal())));
-    }
-    primitives
 }
 
 /// Header, JSON chunk and binary chunk; `None` beyond 4 GiB.

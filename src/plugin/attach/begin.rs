@@ -25,12 +25,12 @@ use super::{
 use crate::plugin::{CoatedMaterial, StainDisplay};
 use crate::{
     plugin::{
-        CoatedBy, Coating, CoatingFault, CoatingGravity, SettingsSource,
+        CoatedBy, Coating, CoatingFault, CoatingGravity, CoatingWeather, SettingsSource, Shelter,
         components::{AwaitingFilm, FilmSlot},
+        shelter::ShelterScene,
     },
     render::FilmPaint,
     settings::CoatingSettings,
-    stain::Environment,
 };
 
 /// `None` while something has to be waited for.
@@ -46,7 +46,7 @@ pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Quer
         let Some(coating) = world.get::<Coating>(root) else { continue };
         let (film, slots) = group_of(world, entity, root);
         done.extend(&slots);
-        let order = match order_film(world, film, &slots, coating) {
+        let order = match order_film(world, film, root, &slots, coating) {
             Ok(None) => continue,
             Ok(Some(order)) => order,
             Err(fault) => {
@@ -81,7 +81,7 @@ fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>
     if group.len() < 2 || world.get::<CoatedBy>(parent).is_some() { alone } else { (parent, group) }
 }
 
-fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
+fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
     check_fields(coating)?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
     let mut meshes = Vec::with_capacity(slots.len());
@@ -99,19 +99,25 @@ fn order_film(world: &World, film: Entity, slots: &[Entity], coating: &Coating) 
         }
     }
     let transform = world.get::<GlobalTransform>(film).copied().unwrap_or_default();
-    let (scale, rotation, _) = transform.to_scale_rotation_translation();
+    let (scale, ..) = transform.to_scale_rotation_translation();
     if !scale.is_finite() || scale.min_element() == 0.0 || scale.x * scale.y * scale.z == 0.0 {
         return Err(CoatingFault::Scale(scale.x, scale.y, scale.z));
     }
-    let gravity = world.get_resource::<CoatingGravity>().map_or(Vec3::NEG_Y, |gravity| gravity.0);
-    Ok(Some(FilmOrder {
-        meshes,
-        key: coating.key(),
-        settings,
-        scale,
-        environment: Environment::still((rotation.inverse() * gravity).normalize_or_zero()),
-        paint: FilmPaint::new(coating, Vec3::ZERO),
-    }))
+    let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
+    let weather = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
+    let environment = weather.environment(gravity, &transform);
+    let mut shelter = None;
+    if coating.shelter == Shelter::Scene
+        && weather.reaches_anything()
+        && let Some(scene) = world.get_resource::<ShelterScene>()
+    {
+        shelter = scene.order(&environment, &transform, root, slots);
+        if shelter.is_none() {
+            return Ok(None);
+        }
+    }
+    let paint = FilmPaint::new(coating, Vec3::ZERO);
+    Ok(Some(FilmOrder { meshes, key: coating.key(), settings, scale, environment, shelter, paint }))
 }
 
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {

@@ -12,11 +12,15 @@ use bevy::{
 use super::surface::surface_of;
 use crate::{
     film::build::{BuildError, BuildWarning},
-    plugin::{CoatingFault, coating::FilmKey},
+    plugin::{
+        CoatingFault,
+        coating::FilmKey,
+        shelter::{CastOrder, FilmShelter},
+    },
     render::{FilmDisplay, FilmPaint},
     settings::CoatingSettings,
     sim::FilmState,
-    stain::Environment,
+    stain::{Environment, exposure::ExposedSurface},
 };
 
 /// A film that is being built. Dropping it calls the work off.
@@ -36,6 +40,8 @@ pub(super) struct FilmOrder {
     pub settings: Arc<CoatingSettings>,
     pub scale: Vec3,
     pub environment: Environment,
+    /// What may shelter it, if rain or sun reach the film.
+    pub shelter: Option<CastOrder>,
     pub paint: FilmPaint,
 }
 
@@ -45,17 +51,27 @@ pub(crate) struct FilmReadiness {
     pub settings: Arc<CoatingSettings>,
     pub warnings: Vec<BuildWarning>,
     pub display: FilmDisplay,
+    pub shelter: FilmShelter,
 }
 
 /// Builds, dresses and ages a film.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { meshes, key, settings, scale, environment, paint } = order;
+    let FilmOrder { meshes, key, settings, scale, environment, shelter, paint } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
     let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale, paint.clone());
+    let shelter = shelter.clone().map(|order| cast(order, &mut film)).unwrap_or_default();
     film.age_to(key.start_age, settings, environment);
     display.prepare(&film);
-    Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display }))
+    Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display, shelter }))
+}
+
+/// Finds out what reaches a fresh film.
+fn cast(mut order: CastOrder, film: &mut FilmState) -> FilmShelter {
+    let surface = Arc::new(ExposedSurface::new(&film.mesh));
+    order.cull(&surface);
+    film.stains.exposure = order.cast(&surface);
+    FilmShelter::of_built(surface, order.key)
 }

@@ -23,6 +23,7 @@ use crate::{
     plugin::{
         CoatedBy, Coating, CoatingPart, FilmPace, FilmRevision,
         components::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource},
+        shelter::FilmShelter,
     },
     render::FilmDisplay,
     sim::{FilmClock, StepScratch},
@@ -32,7 +33,7 @@ use crate::{
 /// All that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
-    (CoatedBy, FilmPace, FilmRevision, FilmSource, FilmBuild, FilmDisplay),
+    (CoatedBy, FilmPace, FilmShelter, FilmRevision, FilmSource, FilmBuild, FilmDisplay),
 );
 
 /// Takes the film on `film` off, ready or being built. Its meshes count as changed, so that they are looked at

@@ -21,6 +21,7 @@ use crate::{
     plugin::{
         CoatedBy, Coating, CoatingPart, FilmPace, SettingsSource,
         components::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource},
+        shelter::FilmShelter,
     },
     settings::CoatingSettings,
 };
@@ -119,7 +120,7 @@ pub(super) fn follow_coatings(
     coatings: Query<&Coating>,
     mut reloaded: MessageReader<AssetEvent<CoatingSettings>>,
     assets: Option<Res<Assets<CoatingSettings>>>,
-    mut films: Query<(&CoatedBy, &mut FilmPace)>,
+    mut films: Query<(&CoatedBy, &mut FilmPace, &mut FilmShelter)>,
 ) {
     let reloaded: Vec<_> = reloaded
         .read()
@@ -131,7 +132,7 @@ pub(super) fn follow_coatings(
     if changed.is_empty() && reloaded.is_empty() {
         return;
     }
-    for (coated_by, mut pace) in &mut films {
+    for (coated_by, mut pace, mut shelter) in &mut films {
         let Ok(coating) = coatings.get(coated_by.0) else { continue };
         let from_file = matches!(&coating.settings, SettingsSource::Asset(handle) if reloaded.contains(&handle.id()));
         if !changed.contains(coated_by.0) && !from_file {
@@ -139,6 +140,7 @@ pub(super) fn follow_coatings(
         }
         pace.paused = coating.paused;
         pace.rate = coating.rate;
+        shelter.choose(coating.shelter);
         let settings = match &coating.settings {
             SettingsSource::Inline(settings) => Some(settings),
             SettingsSource::Asset(handle) => assets.as_ref().and_then(|assets| assets.get(handle)),

@@ -50,11 +50,12 @@ pub(super) fn finish_builds(
                 refuse(&mut commands, film, build.root, &build.slots, fault);
             }
             Ok(ready) => {
-                let FilmReadiness { film: state, settings, warnings, mut display } = *ready;
+                let FilmReadiness { film: state, settings, warnings, mut display, mut shelter } = *ready;
                 let FilmState { mesh, forces, constraints, stains, clock, changes, scratch } = state;
                 let triangles = mesh.topology.face_count();
                 let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
                 (pace.rate, pace.paused) = (coating.rate, coating.paused);
+                shelter.choice = coating.shelter;
                 let handles = display.put_on(&mut assets);
                 for (&slot, handle) in build.slots.iter().zip(handles) {
                     let Ok((_, claim)) = slots.get(slot) else { continue };
@@ -68,7 +69,7 @@ pub(super) fn finish_builds(
                     .entity(film)
                     .try_remove::<FilmBuild>()
                     .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
-                    .try_insert((pace, FilmRevision::default(), source, display));
+                    .try_insert((pace, shelter, FilmRevision::default(), source, display));
                 commands.write_message(FilmReady { entity: film, root: build.root, triangles, warnings });
             }
         }

@@ -21,9 +21,11 @@ use bevy::{
     transform::TransformSystems,
 };
 
+use super::shelter::{self, ShelterScene};
+
 #[cfg(feature = "render")]
 pub(crate) use begin::loaded;
-pub(crate) use surface::SlotAttributes;
+pub(crate) use surface::{SlotAttributes, shape_of};
 
 /// In `PostUpdate`: finished films are put on their props, meshes to be coated are found, builds are begun.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,9 +33,17 @@ pub struct CoatingAttach;
 
 pub(super) fn add_attachment(app: &mut App) {
     app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
+    app.init_resource::<ShelterScene>();
     app.add_systems(
         PostUpdate,
-        (finish::finish_builds, discover::find_meshes, discover::follow_coatings, begin::begin_builds)
+        (
+            finish::finish_builds,
+            discover::find_meshes,
+            discover::follow_coatings,
+            shelter::survey,
+            begin::begin_builds,
+            shelter::cast,
+        )
             .chain()
             .in_set(CoatingAttach),
     );

@@ -67,6 +67,15 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
     Ok((surface, slots))
 }
 
+/// Positions and triangles of a mesh, for what needs no more.
+///
+/// # Errors
+/// [`CoatingFault`] for meshes that are no triangles or cannot be read.
+pub(crate) fn shape_of(mesh: &Mesh) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), CoatingFault> {
+    let positions = positions_of(mesh)?;
+    Ok((positions.to_vec(), triangles_of(mesh, positions.len())?))
+}
+
 /// Appends `values` to `all`, or `here` times `neutral` if there are none but other primitives have some; gives
 /// whether there are some.
 fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize, neutral: T) -> bool {

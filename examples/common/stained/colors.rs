@@ -1,0 +1,71 @@
+//! Stains as vertex colours, for props whose textures must stay what they are.
+
+use bevy_coating::shown::{
+    ShownPart,
+    look::{StainPattern, StainSample, SurfaceLook},
+};
+use bevy_math::{Vec2, Vec3, Vec4};
+
+use super::{
+    finish::{Finish, Place},
+    sheet::Stains,
+};
+
+/// Colours of a part of one colour all over, and its mean metalness and roughness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Colored {
+    /// Linear colours, one a vertex.
+    pub colors: Vec<[f32; 4]>,
+    /// 0 to 1.
+    pub metallic: f32,
+    /// 0 to 1.
+    pub roughness: f32,
+}
+
+/// Colours of paint: its own, times what stains let through where it has a colour texture, which the colours are
+/// multiplied with; else the whole look.
+pub fn film(part: &ShownPart, finish: &Finish, stains: &Stains, footprint: f32) -> Vec<[f32; 4]> {
+    let pattern = stains.pattern.with_footprint(footprint);
+    let color = |i: usize| {
+        let own = part.colors.get(i).map_or(Vec4::ONE, |&c| c.into());
+        let uv = |uvs: &[[f32; 2]]| uvs.get(i).map_or(Vec2::ZERO, |&uv| uv.into());
+        let place = Place { uvs: [uv(&part.uvs), uv(&part.uvs_1)], steps: [0.0; 2], color: own };
+        let (base, alpha) = finish.look(&place);
+        let stained = stains.look.film(base, &sample(part, i), &pattern).base_color;
+        if finish.is_textured() {
+            (own.truncate() * ratio(stained, base.base_color)).extend(own.w).to_array()
+        } else {
+            stained.clamp(Vec3::ZERO, Vec3::ONE).extend(alpha).to_array()
+        }
+    };
+    (0..part.positions.len()).map(color).collect()
+}
+
+/// Colours of backs or metal, whose look `look` gives.
+pub fn bare(
+    part: &ShownPart,
+    stains: &Stains,
+    footprint: f32,
+    look: impl Fn(&StainSample, &StainPattern) -> SurfaceLook,
+) -> Colored {
+    let pattern = stains.pattern.with_footprint(footprint);
+    let looks: Vec<SurfaceLook> = (0..part.positions.len()).map(|i| look(&sample(part, i), &pattern)).collect();
+    let mean = |of: fn(&SurfaceLook) -> f32| looks.iter().map(of).sum::<f32>() / looks.len().max(1) as f32;
+    let color = |look: &SurfaceLook| look.base_color.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array();
+    Colored {
+        metallic: mean(|look| look.metallic).clamp(0.0, 1.0),
+        roughness: mean(|look| look.roughness).clamp(0.0, 1.0),
+        colors: looks.iter().map(color).collect(),
+    }
+}
+
+fn sample(part: &ShownPart, i: usize) -> StainSample {
+    let [rust, dust, moisture, corrosion] = part.stains.get(i).copied().unwrap_or_default();
+    StainSample { rust, dust, moisture, corrosion, rest: part.rest[i].into() }
+}
+
+/// What to multiply `base` with for `stained`. Colours cannot make a surface brighter than its texture.
+fn ratio(stained: Vec3, base: Vec3) -> Vec3 {
+    let part = |s: f32, b: f32| if b > 1e-4 { (s / b).clamp(0.0, 1.0) } else { 1.0 };
+    Vec3::new(part(stained.x, base.x), part(stained.y, base.y), part(stained.z, base.z))
+}

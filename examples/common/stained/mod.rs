@@ -1,0 +1,162 @@
+//! Stains on aged models. glTF has no fields and no shaders of ours, so what the game's material computes is written
+//! into textures, or coarsely into vertex colours.
+//!
+//! ```text
+//! ShownFilm --unique?--> the prop's texture coordinates --+
+//!      |                                                  +--coverage--> looks, relief --dilate--> PNG
+//!      +---charts--unwrap--pack--> coordinates of our own +
+//! ```
+//!
+//! Everything is laid out as it is at rest, so a model's textures lie the same at any age of its flakes.
+
+mod boxes;
+mod charts;
+mod colors;
+mod coverage;
+mod dilate;
+mod encode;
+mod face;
+mod finish;
+mod frames;
+mod kept;
+mod layout;
+mod pack;
+mod sets;
+mod sheet;
+#[cfg(test)]
+mod tests;
+mod texture;
+mod unique;
+mod unwrap;
+
+use std::{borrow::Cow, ops::RangeInclusive};
+
+use bevy_coating::{
+    shown::{
+        ShownFilm, ShownPart,
+        look::{StainLook, StainPattern, SurfaceLook},
+    },
+    sim::FilmState,
+};
+use bevy_math::Vec3;
+
+use super::{MaterialLibrary, Slot, props::Prop};
+use face::Face;
+use layout::textured;
+use sheet::Stains;
+
+pub use encode::Encoded;
+pub use finish::Textures;
+pub use kept::{move_to_second, sets as texture_sets, without_baked};
+
+/// Least and most texels along the side of a texture.
+pub const TEXTURE_SIZES: RangeInclusive<u32> = 64..=8192;
+/// Primer on the backs of flakes, as a `Coating` has it by default.
+pub const PRIMER: SurfaceLook = SurfaceLook {
+    base_color: Vec3::new(0.263, 0.233, 0.187),
+    metallic: 0.0,
+    roughness: 0.85,
+    reflectance: 0.3,
+    height: 0.0,
+};
+
+/// How stains come into a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StainOutput {
+    /// In textures of up to so many texels along a side: base colour, metalness and roughness, normals.
+    Textures(u32),
+    /// In vertex colours. Materials and textures of the prop stay as they are.
+    VertexColors,
+    /// Not at all.
+    None,
+}
+
+impl Default for StainOutput {
+    fn default() -> Self {
+        Self::Textures(1024)
+    }
+}
+
+impl StainOutput {
+    /// The same for a prop that has `share` of the largest one's surface: its textures are smaller, and their texels as
+    /// large.
+    pub fn for_share(self, share: f32) -> Self {
+        let Self::Textures(size) = self else { return self };
+        let wanted = (size as f32 * share.clamp(0.0, 1.0).sqrt()).ceil() as u32;
+        Self::Textures(wanted.next_multiple_of(*TEXTURE_SIZES.start()).clamp(*TEXTURE_SIZES.start(), size))
+    }
+}
+
+/// A mesh primitive to be written.
+pub struct Primitive<'a> {
+    pub part: Cow<'a, ShownPart>,
+    /// The attributes that are to be written.
+    pub has: Slot,
+    pub base: Base,
+    pub cover: Cover,
+}
+
+/// What a primitive's material is derived from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// A material of the prop; `None`: the format's default.
+    Own(Option<usize>),
+    Primer,
+    Metal,
+}
+
+/// What becomes of the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cover {
+    /// It stays as it is.
+    Plain,
+    /// It has the textures of a sheet.
+    Textures {
+        /// Index into the prop's sheets.
+        sheet: usize,
+        /// Whether the prop's own first texture coordinates are the second ones now.
+        moved: bool,
+    },
+    /// It is white, and vertex colours are the colour. With mean metalness and roughness.
+    Colors(Option<[f32; 2]>),
+}
+
+/// One prop with its stains.
+#[derive(Default)]
+pub struct Dressed<'a> {
+    pub primitives: Vec<Primitive<'a>>,
+    pub sheets: Vec<Encoded>,
+    pub warnings: Vec<String>,
+}
+
+/// Makes the primitives of a prop. `textures` keeps the images that were decoded.
+pub fn dress<'a>(
+    prop: &Prop,
+    film: &FilmState,
+    shown: &'a ShownFilm,
+    library: &MaterialLibrary,
+    textures: &mut Textures,
+    output: StainOutput,
+) -> Dressed<'a> {
+    let mut dressed = Dressed::default();
+    let mut faces = Face::all(prop, shown);
+    if output == StainOutput::None {
+        dressed.primitives.extend(faces.iter().map(Face::untouched));
+        return dressed;
+    }
+    for face in &mut faces {
+        if let Err(cause) = face.read_finish(library, textures) {
+            dressed.warnings.push(format!("{}: its paint shows no stains: {cause}", prop.name));
+        }
+    }
+    let look = StainLook::default();
+    let stains = Stains { look: &look, pattern: StainPattern::new(prop.seed, film.stains.streaks) };
+    match output {
+        StainOutput::Textures(size) => textured(&mut dressed, &faces, prop, film, &stains, size),
+        _ => {
+            let footprint = film.mesh.geometry.mean_edge;
+            dressed.primitives.extend(faces.iter().map(|face| face.colored(&stains, footprint)));
+        }
+    }
+    dressed
+}

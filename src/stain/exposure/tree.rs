@@ -1,0 +1,129 @@
+//! Triangles in a tree of boxes, to ask whether a ray meets any of them.
+
+use bevy_math::Vec3;
+
+use super::ray::Ray;
+
+/// Most triangles of a leaf.
+const LEAF: usize = 4;
+/// Depth that a walk through the tree can need: it is cut in halves, so 32 levels are 2^32 triangles.
+const DEPTH: usize = 64;
+
+/// Triangles in a tree of boxes.
+#[derive(Clone, Debug, Default)]
+pub struct TriangleTree {
+    /// Depth first: the first child of a node follows it.
+    nodes: Vec<Node>,
+    /// In the order of the leaves.
+    triangles: Vec<[Vec3; 3]>,
+}
+
+/// A box and what is in it.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    min: Vec3,
+    max: Vec3,
+    /// Of a leaf: its first triangle. Of others: the second child.
+    first: u32,
+    /// Triangles of a leaf; 0 for others.
+    count: u32,
+}
+
+/// A triangle that is being sorted in, with twice its box's middle.
+type Item = (Vec3, [Vec3; 3]);
+
+impl TriangleTree {
+    /// A tree of `triangles`. Which way they face does not matter; those with corners that are not finite are left
+    /// out.
+    pub fn new(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Self {
+        let mut items: Vec<Item> = triangles
+            .into_iter()
+            .filter(|t| t.iter().all(|corner| corner.is_finite()))
+            .map(|t| {
+                let (min, max) = bounds([&t]);
+                (min + max, t)
+            })
+            .collect();
+        let mut tree = Self { nodes: Vec::with_capacity(items.len()), triangles: Vec::with_capacity(items.len()) };
+        if !items.is_empty() {
+            tree.grow(&mut items);
+        }
+        tree
+    }
+
+    /// Appends the node of `items` and all below it.
+    fn grow(&mut self, items: &mut [Item]) {
+        let (min, max) = bounds(items.iter().map(|(_, triangle)| triangle));
+        let node = self.nodes.len();
+        self.nodes.push(Node { min, max, first: self.triangles.len() as u32, count: items.len() as u32 });
+        if items.len() <= LEAF {
+            self.triangles.extend(items.iter().map(|(_, triangle)| triangle));
+            return;
+        }
+        let (low, high) =
+            items.iter().fold((Vec3::MAX, Vec3::MIN), |(low, high), &(middle, _)| (low.min(middle), high.max(middle)));
+        let axis = (high - low).max_position();
+        let half = items.len() / 2;
+        items.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+        let (near, far) = items.split_at_mut(half);
+        self.grow(near);
+        let second = self.nodes.len() as u32;
+        self.grow(far);
+        if let Some(node) = self.nodes.get_mut(node) {
+            (node.first, node.count) = (second, 0);
+        }
+    }
+
+    /// Whether the ray from `origin` meets a triangle, from either side.
+    pub fn is_met(&self, ray: &Ray, origin: Vec3) -> bool {
+        if self.nodes.is_empty() {
+            return false;
+        }
+        let mut stack = [0u32; DEPTH];
+        let (mut left, mut index) = (0, 0usize);
+        loop {
+            let node = &self.nodes[index];
+            let mut next = None;
+            if ray.meets_box(origin, node.min, node.max) {
+                if node.count == 0 {
+                    stack[left] = node.first;
+                    left += 1;
+                    next = Some(index + 1);
+                } else {
+                    let first = node.first as usize;
+                    let leaf = &self.triangles[first..first + node.count as usize];
+                    if leaf.iter().any(|triangle| ray.meets_triangle(origin, triangle)) {
+                        return true;
+                    }
+                }
+            }
+            index = match next {
+                Some(next) => next,
+                None if left == 0 => return false,
+                None => {
+                    left -= 1;
+                    stack[left] as usize
+                }
+            };
+        }
+    }
+
+    /// Lowest and highest corner of all triangles; `None` without any.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.nodes.first().map(|root| (root.min, root.max))
+    }
+
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Whether there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+}
+
+fn bounds<'a>(triangles: impl IntoIterator<Item = &'a [Vec3; 3]>) -> (Vec3, Vec3) {
+    triangles.into_iter().flatten().fold((Vec3::MAX, Vec3::MIN), |(min, max), &p| (min.min(p), max.max(p)))
+}
