@@ -7,7 +7,7 @@ use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
 
 /// Luminance of 1 in [`radiance`], cd/m².
-const BRIGHTNESS: f32 = 1_100.0;
+const BRIGHTNESS: f32 = 850.0;
 
 pub struct StudioPlugin;
 
@@ -32,7 +32,7 @@ fn spawn_sun(mut commands: Commands) {
     commands.spawn((
         DirectionalLight {
             color: Color::linear_rgb(1.0, 0.95, 0.87),
-            illuminance: 7_500.0,
+            illuminance: 6_000.0,
             shadow_maps_enabled: true,
             shadow_depth_bias: 0.01,
             shadow_normal_bias: 1.0,

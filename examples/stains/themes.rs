@@ -56,14 +56,11 @@ impl Theme {
 
     /// From top to bottom.
     pub fn rows(self, options: &Options) -> Vec<Row> {
-        let plain = Row {
-            name: "",
-            title: "",
-            detail: String::new(),
-            settings: options.preset.1.clone(),
-            windy: false,
-            roof: false,
-        };
+        let mut settings = options.preset.1.clone();
+        // Flakes that lie flat hide less of what runs off below them.
+        settings.deform.sweeps_per_age *= 0.3;
+        settings.deform.bend_limit *= 0.7;
+        let plain = Row { name: "", title: "", detail: String::new(), settings, windy: false, roof: false };
         match self {
             Self::Dust => dust(&plain),
             Self::Rust => rust(&plain),
