@@ -1,68 +1,23 @@
-//! Weather in an app: wind, gravity and turning, and what shelters from rain and sun.
+//! Stains in an app are those of the simulation; wind, gravity, rain and sun turn with the prop.
 
 mod common;
+#[path = "common/sky.rs"]
+mod sky;
 
 use std::time::Duration;
 
-use bevy::{asset::RenderAssetUsages, math::Affine3A, prelude::*, time::TimeUpdateStrategy};
+use bevy::{app::TaskPoolOptions, mesh::MeshPlugin, prelude::*, time::TimeUpdateStrategy};
 use bevy_coating::{
     plugin::FilmPace,
     prelude::*,
     sim::FilmState,
-    stain::{Environment, Exposure, StainFields, exposure::exposure_of},
+    stain::{Environment, Exposure},
 };
 use common::*;
-
-const RAIN: CoatingWeather = CoatingWeather { wind: Vec3::ZERO, gusts: 0.0, rain: Vec3::NEG_Y, sun: Vec3::ZERO };
-
-/// Turns the plate, which faces +z, to face up.
-fn lying() -> Transform {
-    Transform::from_rotation(Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2))
-}
-
-/// A plate that lies on the ground, over 0 to 1 in x and -1 to 0 in z.
-fn spawn_lying(app: &mut App, n: u32, coating: Coating) -> Entity {
-    let mesh = add_mesh(app, plate(n));
-    app.world_mut().spawn((Mesh3d(mesh), lying(), coating)).id()
-}
-
-/// A roof over half of what lies on the ground, one metre up: over x from -1.5 to 0.5.
-fn spawn_roof(app: &mut App) -> Entity {
-    let mesh = add_mesh(app, Plane3d::new(Vec3::Y, Vec2::new(1.0, 2.0)).mesh().build());
-    app.world_mut().spawn((Mesh3d(mesh), Transform::from_xyz(-0.5, 1.0, -0.5), RainShelter)).id()
-}
-
-fn exposure(app: &App, film: Entity) -> &Exposure {
-    &app.world().get::<StainFields>(film).expect("a film").exposure
-}
-
-/// Exposure to rain of the lying plate at `x`, in the middle of z.
-fn rain_at(app: &App, film: Entity, x: f32) -> f32 {
-    let state = film_state(app, film);
-    let rest = &state.mesh.geometry.rest_positions[..state.mesh.topology.original_vertex_count()];
-    let to = |p: &Vec3| p.distance_squared(Vec3::new(x, 0.5, 0.0));
-    let nearest = (0..rest.len()).min_by(|&i, &j| to(&rest[i]).total_cmp(&to(&rest[j]))).expect("a vertex");
-    exposure(app, film).rain.get(nearest).copied().unwrap_or(1.0)
-}
+use sky::*;
 
 fn environment(app: &App, film: Entity) -> Environment {
     app.world().get::<FilmPace>(film).expect("a film").environment
-}
-
-/// Requests `steps` steps and updates until all films that were ready have taken them.
-fn take_steps_held(app: &mut App, steps: u64) {
-    let clocks = |app: &mut App| {
-        let world = app.world_mut();
-        world.query::<&FilmClock>().iter(world).map(|clock| clock.steps).collect::<Vec<_>>()
-    };
-    let expected: Vec<u64> = clocks(app).iter().map(|taken| taken + steps).collect();
-    app.world_mut().resource_mut::<CoatingClock>().request_steps(steps);
-    update_until(app, |app| clocks(app) == expected);
-}
-
-/// Settings under which rain, sun, rust and dust all do something soon.
-fn wet_coating() -> Coating {
-    quick_coating().with_seed(11)
 }
 
 fn settings_of(coating: &Coating) -> CoatingSettings {
@@ -100,6 +55,8 @@ fn stains_in_an_app_are_those_of_the_simulation_to_the_bit() {
     assert_eq!(aged.clock.steps, 100);
     assert_eq!(aged.stains, expected.stains);
     assert_eq!(aged.digest(), expected.digest());
+    let m = aged.measure();
+    assert!(m.sources > 0 && m.rust_stained > 0.0 && m.dust_mean > Some(0.01) && m.moisture_mean > Some(0.01), "{m:?}");
 }
 
 #[test]
@@ -188,155 +145,6 @@ fn weather_that_is_no_number_does_no_harm() {
 }
 
 #[test]
-fn a_roof_keeps_what_is_under_it_dry() {
-    let mut app = app();
-    let film = spawn_lying(&mut app, 20, wet_coating());
-    spawn_roof(&mut app);
-    wait_for_films(&mut app, 1);
-    app.insert_resource(RAIN);
-    take_steps_held(&mut app, 20);
-    assert_eq!((rain_at(&app, film, 0.1), rain_at(&app, film, 0.9)), (0.0, 1.0));
-    let state = film_state(&app, film);
-    let moisture = |side: fn(f32) -> bool| {
-        let positions = &state.mesh.geometry.rest_positions;
-        let wet = state.stains.film.moisture.iter().zip(positions).filter(|(_, p)| side(p.x)).map(|(m, _)| *m);
-        wet.fold(0.0f32, f32::max)
-    };
-    assert_eq!(moisture(|x| x < 0.4), 0.0);
-    assert!(moisture(|x| x > 0.6) > 0.1, "it does rain");
-}
-
-#[test]
-fn exposure_follows_shelters_props_rain_and_choice() {
-    let mut app = app();
-    let film = spawn_lying(&mut app, 10, wet_coating());
-    let roof = spawn_roof(&mut app);
-    app.insert_resource(RAIN);
-    wait_for_films(&mut app, 1);
-    let sides = |app: &App| (rain_at(app, film, 0.1), rain_at(app, film, 0.9));
-    assert_eq!(sides(&app), (0.0, 1.0));
-    let until = |app: &mut App, what: &str, expected: (f32, f32)| {
-        for _ in 0..5000 {
-            app.update();
-            if sides(app) == expected {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        panic!("{what}: {:?}", sides(app));
-    };
-    app.world_mut().get_mut::<Transform>(roof).expect("a roof").translation.x += 1.0;
-    until(&mut app, "the roof moves over all of it", (0.0, 0.0));
-    app.world_mut().get_mut::<Transform>(film).expect("a prop").translation.x += 1.0;
-    until(&mut app, "the prop moves after it", (0.0, 1.0));
-    app.insert_resource(CoatingWeather { rain: Vec3::new(-1.0, -1.0, 0.0).normalize(), ..RAIN });
-    until(&mut app, "rain falls aslant, in under the roof", (1.0, 1.0));
-    app.insert_resource(RAIN);
-    until(&mut app, "and straight down again", (0.0, 1.0));
-    app.world_mut().get_mut::<Coating>(film).expect("a coating").shelter = Shelter::Open;
-    until(&mut app, "nothing is to shelter it", (1.0, 1.0));
-    app.world_mut().get_mut::<Coating>(film).expect("a coating").shelter = Shelter::Scene;
-    until(&mut app, "but then again", (0.0, 1.0));
-    app.world_mut().entity_mut(roof).remove::<RainShelter>();
-    until(&mut app, "the roof is none any more", (1.0, 1.0));
-    let house = app.world_mut().spawn((Transform::default(), Visibility::default(), RainShelter)).id();
-    app.world_mut().entity_mut(roof).insert(ChildOf(house));
-    until(&mut app, "it is part of a house", (0.0, 1.0));
-    app.world_mut().despawn(house);
-    until(&mut app, "which is pulled down", (1.0, 1.0));
-}
-
-#[test]
-fn a_given_exposure_is_left_alone() {
-    let mut app = app();
-    let film = spawn_lying(&mut app, 8, wet_coating().with_shelter(Shelter::Given));
-    spawn_roof(&mut app);
-    app.insert_resource(RAIN);
-    wait_for_films(&mut app, 1);
-    assert_eq!(*exposure(&app, film), Exposure::default());
-    let given = Exposure { rain: vec![0.25; 81], sun: Vec::new() };
-    app.world_mut().get_mut::<StainFields>(film).expect("a film").exposure = given.clone();
-    take_steps(&mut app, 10);
-    assert_eq!(app.world().get::<FilmClock>(film).expect("a film").steps, 10, "there is nothing to wait for");
-    assert_eq!(*exposure(&app, film), given);
-}
-
-#[test]
-fn props_are_sheltered_as_tools_would_have_it() {
-    let mut app = app();
-    let weather = CoatingWeather { sun: Vec3::new(0.6, -0.8, 0.1), ..RAIN };
-    app.insert_resource(weather);
-    // Turned, stretched and mirrored, under a turned roof.
-    let place = Transform::from_xyz(1.0, 2.0, 3.0)
-        .with_rotation(Quat::from_euler(EulerRot::XYZ, -1.2, 0.4, 0.3))
-        .with_scale(Vec3::new(-2.0, 1.5, 1.0));
-    let mesh = add_mesh(&mut app, plate(20));
-    let film = app.world_mut().spawn((Mesh3d(mesh), place, quick_coating())).id();
-    let roof_mesh = Plane3d::new(Vec3::Y, Vec2::new(1.0, 0.6)).mesh().build();
-    let roof_place = Transform::from_xyz(0.0, 5.0, 2.0).with_rotation(Quat::from_rotation_z(0.3));
-    let handle = add_mesh(&mut app, roof_mesh.clone());
-    app.world_mut().spawn((Mesh3d(handle), roof_place, RainShelter));
-    wait_for_films(&mut app, 1);
-    let found = exposure(&app, film).clone();
-    // The film's space: turned and moved with the prop, but not scaled.
-    let (_, rotation, translation) = GlobalTransform::from(place).to_scale_rotation_translation();
-    let into = Affine3A::from_rotation_translation(rotation, translation).inverse() * roof_place.compute_affine();
-    let positions = roof_mesh.attribute(Mesh::ATTRIBUTE_POSITION).and_then(|p| p.as_float3()).expect("positions");
-    let corners: Vec<Vec3> = roof_mesh
-        .indices()
-        .expect("indices")
-        .iter()
-        .map(|i| into.transform_point3(Vec3::from_array(positions[i])))
-        .collect();
-    let turned = |v: Vec3| rotation.inverse() * v;
-    let film = film_state(&app, film).mesh;
-    let triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
-    let expected = exposure_of(&film, triangles, turned(weather.rain), turned(weather.sun));
-    let differ = |a: &[f32], b: &[f32]| a.iter().zip(b).filter(|(a, b)| a != b).count();
-    assert!(expected.rain.contains(&0.0) && expected.rain.contains(&1.0));
-    assert_eq!((found.rain.len(), found.sun.len()), (expected.rain.len(), expected.sun.len()));
-    // Rounding may decide single rays at the border otherwise.
-    assert!(differ(&found.rain, &expected.rain) + differ(&found.sun, &expected.sun) < 5);
-}
-
-#[test]
-fn meshes_of_one_prop_shelter_each_other() {
-    let mut app = app();
-    app.insert_resource(RAIN);
-    let (plate_mesh, other) = (add_mesh(&mut app, plate(10)), add_mesh(&mut app, plate(9)));
-    let world = app.world_mut();
-    let root = world.spawn((Transform::default(), Visibility::default(), quick_coating())).id();
-    let below = world.spawn((Mesh3d(plate_mesh), lying(), ChildOf(root))).id();
-    let place = lying().with_translation(Vec3::new(-0.5, 0.3, 0.0));
-    let above = world.spawn((Mesh3d(other), place, ChildOf(root))).id();
-    wait_for_films(&mut app, 2);
-    assert_eq!((rain_at(&app, below, 0.1), rain_at(&app, below, 0.9)), (0.0, 1.0));
-    assert_eq!(*exposure(&app, above), Exposure::default());
-    let mut app = common::app();
-    app.insert_resource(RAIN);
-    let (plate_mesh, other) = (add_mesh(&mut app, plate(10)), add_mesh(&mut app, plate(9)));
-    let below = app.world_mut().spawn((Mesh3d(plate_mesh), lying(), quick_coating())).id();
-    app.world_mut().spawn((Mesh3d(other), place, quick_coating()));
-    wait_for_films(&mut app, 2);
-    assert_eq!(*exposure(&app, below), Exposure::default(), "other props do not shelter it unless they are marked");
-}
-
-#[test]
-fn shelters_that_cannot_be_read_are_passed_over() {
-    let mut app = app();
-    app.insert_resource(RAIN);
-    let mut mesh = Plane3d::new(Vec3::Y, Vec2::splat(9.0)).mesh().build();
-    mesh.asset_usage = RenderAssetUsages::RENDER_WORLD;
-    mesh.take_gpu_data().expect("the data");
-    let handle = add_mesh(&mut app, mesh);
-    app.world_mut().spawn((Mesh3d(handle), Transform::from_xyz(0.0, 1.0, 0.0), RainShelter));
-    let film = spawn_lying(&mut app, 6, quick_coating());
-    wait_for_films(&mut app, 1);
-    take_steps_held(&mut app, 5);
-    assert_eq!(*exposure(&app, film), Exposure::default());
-}
-
-#[test]
 fn frames_do_not_change_a_film_in_the_rain() {
     let digest_at = |frame: Duration| {
         let mut app = app();
@@ -365,19 +173,42 @@ fn frames_do_not_change_a_film_in_the_rain() {
     }
 }
 
+/// Set in the processes that [`any_number_of_threads_gives_the_same_bits`] starts: how many threads to use.
+const THREADS: &str = "COATING_TEST_THREADS";
+
+/// Ages four plates in the rain under a roof on as many threads as the environment says, and prints their digests.
 #[test]
-fn a_film_that_never_comes_to_rest_goes_on() {
-    let mut app = app();
+fn digests_for_other_processes() {
+    let Some(threads) = std::env::var(THREADS).ok().and_then(|threads| threads.parse().ok()) else { return };
+    let mut app = App::new();
+    let pools = TaskPoolPlugin { task_pool_options: TaskPoolOptions::with_num_threads(threads) };
+    app.add_plugins((MinimalPlugins.set(pools), AssetPlugin::default(), MeshPlugin, TransformPlugin));
+    app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
     spawn_roof(&mut app);
-    let film = spawn_lying(&mut app, 8, wet_coating());
-    app.insert_resource(RAIN);
-    wait_for_films(&mut app, 1);
-    let mut clock = app.world_mut().resource_mut::<CoatingClock>();
-    (clock.paused, clock.age_per_second, clock.target_age) = (false, 1.0, Some(0.5));
-    update_until(&mut app, |app| {
-        let mut transform = app.world_mut().get_mut::<Transform>(film).expect("a prop");
-        transform.rotate_y(0.1);
-        transform.translation.x = (transform.translation.x + 0.3) % 2.0;
-        app.world().resource::<CoatingStatus>().youngest >= 0.5
-    });
+    let plates: Vec<Entity> = (0..4).map(|seed| spawn_lying(&mut app, 9, quick_coating().with_seed(seed))).collect();
+    wait_for_films(&mut app, 4);
+    take_steps(&mut app, 20);
+    app.insert_resource(CoatingWeather { sun: Vec3::new(0.5, -0.5, 0.0), ..RAIN });
+    take_steps_held(&mut app, 50);
+    for plate in plates {
+        assert!(exposure(&app, plate).rain.contains(&0.0));
+        println!("digest {}", film_state(&app, plate).digest());
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let digests = |threads: &str| {
+        let program = std::env::current_exe().expect("this program");
+        let mut process = std::process::Command::new(program);
+        process.args(["--exact", "digests_for_other_processes", "--nocapture"]).env(THREADS, threads);
+        let output = String::from_utf8(process.output().expect("a run").stdout).expect("text");
+        // The harness may print on the same line.
+        output.match_indices("digest ").map(|(at, _)| output[at..at + 71].to_string()).collect::<Vec<_>>()
+    };
+    let one = digests("1");
+    assert_eq!(one.len(), 4, "{one:?}");
+    assert!(one[0] != one[1]);
+    assert_eq!(digests("3"), one);
+    assert_eq!(digests("8"), one);
 }

@@ -1,7 +1,7 @@
 //! What falls off the props lies on the ground below: each [`PieceFallen`] leaves a curled flake.
 
+use crate::common_scene::paint::Repaint;
 use crate::scene::{FAR_KERB, KERB, ROAD};
-use crate::weathering::Repaint;
 use bevy::asset::RenderAssetUsages;
 use bevy::light::NotShadowCaster;
 use bevy::mesh::{Indices, PrimitiveTopology};

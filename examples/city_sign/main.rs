@@ -6,35 +6,35 @@
 #![allow(clippy::disallowed_methods, reason = "the scenery is only looked at; its bits may differ between platforms")]
 
 mod bare;
-mod camera;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common_scene/mod.rs"]
+mod common_scene;
 mod debris;
-mod graphics;
-mod headless;
 mod props;
 mod scene;
-mod weathering;
-mod window;
+mod views;
 
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
+use common_scene::{graphics, headless, paint, window};
 
 fn main() -> AppExit {
     let options = Options::parse();
+    let folder = options.scene.folder("city_sign");
     if !graphics::adapter_exists() {
-        return bare::run(&options);
+        return common_scene::bare::run(&folder, bare::pieces(&options));
     }
-    let windowless = options.headless || !graphics::display_exists();
     let mut app = App::new();
-    if windowless {
-        headless::add(&mut app, &options);
+    if options.scene.headless || !graphics::display_exists() {
+        headless::add(&mut app, &options.scene, folder, views::shots(&options));
     } else {
-        window::add(&mut app, &options);
+        let size = options.scene.size.map_or(views::SIZE, UVec2::from);
+        window::add(&mut app, "City sign", size, views::views(&options));
     }
     app.insert_resource(options);
-    app.add_plugins((scene::ScenePlugin, props::PropsPlugin, weathering::WeatheringPlugin, debris::DebrisPlugin));
+    app.add_plugins((scene::ScenePlugin, props::PropsPlugin, paint::PaintPlugin, debris::DebrisPlugin));
     app.run()
 }

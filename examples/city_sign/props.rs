@@ -1,20 +1,30 @@
 //! The sign and the props around it.
 
 use crate::cli::Options;
+use crate::common_scene::paint::{Loading, Paint};
 use crate::debris::FlakeColour;
 use crate::scene::ROAD;
-use crate::weathering::Wear::{self, Sheltered, Street};
-use crate::weathering::{Loading, Painted};
+use Wear::{Sheltered, Street};
 use bevy::gltf::GltfAssetLabel;
 use bevy::prelude::*;
 use bevy::world_serialization::WorldInstanceReady;
+use bevy_coating::prelude::*;
 
 pub struct PropsPlugin;
 
 impl Plugin for PropsPlugin {
     fn build(&self, app: &mut App) {
-        app.add_systems(Startup, spawn).add_systems(Update, give_up);
+        app.add_systems(Startup, spawn);
     }
+}
+
+/// How a part has fared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Wear {
+    /// As the command line has it.
+    Street,
+    /// A better primer, or a sheltered place: less has come off.
+    Sheltered,
 }
 
 /// A model of the scene.
@@ -110,6 +120,7 @@ fn spawn(mut commands: Commands, assets: Res<AssetServer>, options: Res<Options>
         prop.seed = index as u64 * 1000;
         loading.props += 1;
         let scene = assets.load(GltfAssetLabel::Scene(0).from_asset(prop.file));
+        loading.files.push(scene.clone().untyped());
         commands.spawn((WorldAssetRoot(scene), prop.place, prop)).observe(dress);
     }
 }
@@ -141,19 +152,19 @@ fn dress(
         let Ok(name) = names.get(parent.parent()) else { continue };
         let painted = prop.painted.iter().enumerate().find(|(_, (node, ..))| *node == name.as_str());
         if let Some((index, &(_, triangles, wear))) = painted {
-            let seed = options.seed.wrapping_add(prop.seed + index as u64);
-            commands.entity(entity).insert((Painted { triangles, seed, wear }, FlakeColour(prop.flakes)));
+            let seed = options.scene.seed.wrapping_add(prop.seed + index as u64);
+            let paint = coating(&options, wear).with_seed(seed).with_triangles(triangles);
+            commands.entity(entity).insert((Paint(paint), FlakeColour(prop.flakes)));
         }
     }
     loading.loaded += 1;
 }
 
-/// A model that cannot be loaded would be waited for in vain.
-fn give_up(assets: Res<AssetServer>, props: Query<&WorldAssetRoot>, mut exit: MessageWriter<AppExit>) {
-    for prop in &props {
-        if assets.load_state(&prop.0).is_failed() {
-            error!("A model of the scene is missing; run the example from a whole copy of the repository.");
-            exit.write(AppExit::error());
-        }
+fn coating(options: &Options, wear: Wear) -> Coating {
+    let mut settings = options.preset.1.clone();
+    if wear == Sheltered {
+        settings.adhesion.mean += 0.5;
+        settings.deform.bend_limit *= 0.6;
     }
+    Coating::new(settings)
 }

@@ -105,10 +105,11 @@ impl MeshBuilder {
         self.indices.is_empty()
     }
 
-    pub fn build(self) -> Mesh {
+    /// `usages`: whether it can still be read later, as what shelters props must be.
+    pub fn build(self, usages: RenderAssetUsages) -> Mesh {
         let tangents = self.tangents();
         let colours: Vec<[f32; 4]> = self.colours.iter().map(|c| c.extend(1.0).to_array()).collect();
-        Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::RENDER_WORLD)
+        Mesh::new(PrimitiveTopology::TriangleList, usages)
             .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, self.positions)
             .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, self.normals)
             .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, self.uvs)

@@ -11,8 +11,10 @@ mod textures;
 mod tiling;
 mod walls;
 
+use bevy::asset::RenderAssetUsages;
 use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
+use bevy_coating::prelude::*;
 use builder::MeshBuilder;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -30,13 +32,23 @@ pub struct ScenePlugin;
 
 impl Plugin for ScenePlugin {
     fn build(&self, app: &mut App) {
-        app.add_systems(PreStartup, paint_sky);
+        app.insert_resource(weather()).add_systems(PreStartup, paint_sky);
         app.add_systems(Startup, (build_street, sky::spawn_sun));
     }
 }
 
+/// Showers from the sea, on the left; the low sun dries the other side.
+fn weather() -> CoatingWeather {
+    CoatingWeather {
+        wind: Vec3::new(0.10, 0.0, -0.03),
+        gusts: 0.02,
+        rain: Vec3::new(0.62, -0.74, -0.26).normalize() * 0.8,
+        sun: sky::sun_direction() * -0.8,
+    }
+}
+
 fn paint_sky(mut commands: Commands, mut images: ResMut<Assets<Image>>) {
-    commands.insert_resource(sky::Sky::paint(&mut images));
+    commands.insert_resource(sky::paint(&mut images));
 }
 
 /// What the builders share: where finished parts go, and the dice.
@@ -50,16 +62,29 @@ pub struct Site<'a, 'w, 's> {
 
 impl Site<'_, '_, '_> {
     fn spawn(&mut self, mesh: MeshBuilder, material: &Handle<StandardMaterial>) {
-        if !mesh.is_empty() {
-            self.commands.spawn((Mesh3d(self.meshes.add(mesh.build())), MeshMaterial3d(material.clone())));
-        }
+        self.add(mesh, material, RenderAssetUsages::RENDER_WORLD, ());
     }
 
     /// For what is too thin or too flat to be missed in a shadow map.
     fn spawn_shadowless(&mut self, mesh: MeshBuilder, material: &Handle<StandardMaterial>) {
+        self.add(mesh, material, RenderAssetUsages::RENDER_WORLD, NotShadowCaster);
+    }
+
+    /// For what keeps rain and sun off the props.
+    fn spawn_shelter(&mut self, mesh: MeshBuilder, material: &Handle<StandardMaterial>) {
+        self.add(mesh, material, RenderAssetUsages::default(), RainShelter);
+    }
+
+    fn add(
+        &mut self,
+        mesh: MeshBuilder,
+        material: &Handle<StandardMaterial>,
+        usages: RenderAssetUsages,
+        more: impl Bundle,
+    ) {
         if !mesh.is_empty() {
-            let mesh = Mesh3d(self.meshes.add(mesh.build()));
-            self.commands.spawn((mesh, MeshMaterial3d(material.clone()), NotShadowCaster));
+            let mesh = Mesh3d(self.meshes.add(mesh.build(usages)));
+            self.commands.spawn((mesh, MeshMaterial3d(material.clone()), more));
         }
     }
 

@@ -21,6 +21,13 @@ struct Building {
     tint: Vec3,
 }
 
+impl Building {
+    /// Whether it is built in detail, and near enough to shelter the props.
+    fn is_near(&self) -> bool {
+        self.cell < 0.45
+    }
+}
+
 pub fn build(site: &mut Site) {
     let left = |z: f32| Transform::from_xyz(FAR_KERB - 3.6, -0.2, z).with_rotation(Quat::from_rotation_y(FRAC_PI_2));
     let right = |x: f32, z: f32| Transform::from_xyz(x, -0.2, z).with_rotation(Quat::from_rotation_y(-FRAC_PI_2));
@@ -59,8 +66,13 @@ pub fn build(site: &mut Site) {
     for (index, building) in buildings.iter().enumerate() {
         let (mut faces, mut edges, mut bars) = <(MeshBuilder, MeshBuilder, MeshBuilder)>::default();
         raise(site, building, index as f32 * 40.0, &mut faces, &mut edges, &mut bars);
-        site.spawn(faces, &plaster);
-        site.spawn(edges, &concrete);
+        if building.is_near() {
+            site.spawn_shelter(faces, &plaster);
+            site.spawn_shelter(edges, &concrete);
+        } else {
+            site.spawn(faces, &plaster);
+            site.spawn(edges, &concrete);
+        }
         site.spawn_shadowless(bars, &rust);
     }
 }
@@ -87,7 +99,7 @@ fn raise(
 ) {
     let (width, depth) = (building.width, building.depth);
     let height = building.storeys as f32 * STOREY + 0.5;
-    let near = building.cell < 0.45;
+    let near = building.is_near();
     let noise = Fbm::<Perlin>::new(21).set_octaves(4);
     let plaster_scale = 1.0 / site.surfaces.plaster.size;
     let wall = |length: f32, height: f32, openings: bool, index: f32| Wall {

@@ -11,6 +11,7 @@ use bevy::{
         system::{Commands, Query},
         world::{EntityRef, World},
     },
+    math::Vec3,
     mesh::{Mesh3d, skinning::SkinnedMesh},
     tasks::AsyncComputeTaskPool,
     transform::components::{GlobalTransform, Transform},
@@ -115,15 +116,8 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
             return Ok(None);
         }
     }
-    Ok(Some(FilmOrder {
-        meshes,
-        key: coating.key(),
-        settings,
-        scale,
-        environment,
-        shelter,
-        paint: FilmPaint::new(coating, Vec3::ZERO),
-    }))
+    let paint = FilmPaint::new(coating, Vec3::ZERO);
+    Ok(Some(FilmOrder { meshes, key: coating.key(), settings, scale, environment, shelter, paint }))
 }
 
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {

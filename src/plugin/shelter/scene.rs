@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy::{
-    asset::{AssetEvent, AssetId, AssetServer, Assets},
+    asset::{AssetEvent, AssetId, AssetServer, Assets, LoadState},
     ecs::{
         entity::Entity,
         hierarchy::Children,
@@ -22,7 +22,7 @@ use bevy::{
 
 use super::{CastOrder, RainShelter, Shelter};
 use crate::{
-    plugin::{Coating, CoatingPart, CoatingWeather, attach::shape_of, components::FilmSlot},
+    plugin::{Coating, CoatingFault, CoatingPart, CoatingWeather, attach::shape_of, components::FilmSlot},
     stain::{
         Environment,
         exposure::{Blocker, TriangleTree},
@@ -175,11 +175,15 @@ impl ShelterScene {
     }
 }
 
-/// Begins to sort the triangles of a piece's mesh; `None` while it is being loaded.
+/// Begins to sort the triangles of a piece's mesh; `None` while it is being loaded. A mesh that nobody loads is missing
+/// until it is added.
 fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>) -> Option<Tree> {
     let Some(mesh) = assets.get(piece.mesh) else {
-        let failed = server.is_some_and(|server| server.load_state(piece.mesh).is_failed());
-        return failed.then_some(Tree::Missing);
+        let state = server.map(|server| server.load_state(piece.mesh));
+        if state.as_ref().is_some_and(LoadState::is_failed) {
+            tell(piece, &CoatingFault::MeshNotLoaded);
+        }
+        return (!state.is_some_and(|state| state.is_loading())).then_some(Tree::Missing);
     };
     match shape_of(mesh) {
         Ok((positions, triangles)) => Some(Tree::Growing(AsyncComputeTaskPool::get().spawn(async move {
@@ -187,8 +191,12 @@ fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>
             TriangleTree::new(triangles.iter().map(|t| t.map(corner)))
         }))),
         Err(fault) => {
-            warn!("entity {} shelters nothing from rain and sun: {fault}", piece.entity);
+            tell(piece, &fault);
             Some(Tree::Missing)
         }
     }
+}
+
+fn tell(piece: &Piece, fault: &CoatingFault) {
+    warn!("entity {} shelters nothing from rain and sun: {fault}", piece.entity);
 }

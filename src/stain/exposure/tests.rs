@@ -1,3 +1,5 @@
+use core::f32::consts::{FRAC_PI_2, PI};
+
 use bevy_math::{Mat3, Quat};
 use proptest::prelude::*;
 
@@ -34,11 +36,11 @@ fn cube(n: i32, half: f32) -> FilmMesh {
     };
     for turn in [
         Quat::IDENTITY,
-        Quat::from_rotation_z(1.570_796_4),
-        Quat::from_rotation_z(3.141_592_7),
-        Quat::from_rotation_z(-1.570_796_4),
-        Quat::from_rotation_x(1.570_796_4),
-        Quat::from_rotation_x(-1.570_796_4),
+        Quat::from_rotation_z(FRAC_PI_2),
+        Quat::from_rotation_z(PI),
+        Quat::from_rotation_z(-FRAC_PI_2),
+        Quat::from_rotation_x(FRAC_PI_2),
+        Quat::from_rotation_x(-FRAC_PI_2),
     ] {
         let corner = |x: i32, z: i32| {
             turn * (Vec3::new(2.0 * x as f32 / n as f32 - 1.0, 1.0, 2.0 * z as f32 / n as f32 - 1.0) * half)

@@ -1,7 +1,6 @@
-//! The three views, and the orbit around what they look at.
+//! The camera of a scene: an orbit around what it looks at.
 
-use crate::cli::View;
-use crate::scene::sky::Sky;
+use super::sky::Sky;
 use bevy::camera::Hdr;
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::post_process::bloom::Bloom;
@@ -22,28 +21,6 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    pub fn of(view: View) -> Self {
-        match view {
-            View::Sign | View::All => Self {
-                centre: Vec3::new(-0.36, 1.68, 0.0),
-                distance: 1.85,
-                yaw: -0.20,
-                pitch: -0.05,
-                field_of_view: 0.90,
-            },
-            View::Close => Self {
-                centre: Vec3::new(-0.10, 1.72, 0.0),
-                distance: 0.55,
-                yaw: -0.45,
-                pitch: 0.10,
-                field_of_view: 0.75,
-            },
-            View::Street => {
-                Self { centre: Vec3::new(-1.8, 1.7, -3.0), distance: 7.5, yaw: 0.10, pitch: 0.02, field_of_view: 0.90 }
-            }
-        }
-    }
-
     pub fn transform(&self) -> Transform {
         let turn = Quat::from_euler(EulerRot::YXZ, self.yaw, -self.pitch, 0.0);
         Transform::from_translation(self.centre + turn * Vec3::Z * self.distance).looking_at(self.centre, Vec3::Y)
@@ -54,7 +31,7 @@ impl Orbit {
     }
 }
 
-/// Everything a camera of this scene has, whatever it draws on.
+/// Everything a camera of a scene has, whatever it draws on.
 pub fn view(sky: &Sky, orbit: Orbit) -> impl Bundle {
     (
         Camera3d::default(),
@@ -65,7 +42,7 @@ pub fn view(sky: &Sky, orbit: Orbit) -> impl Bundle {
         // The other tone maps need look-up tables that the `tonemapping_luts` feature would bring.
         Tonemapping::AcesFitted,
         DebandDither::Enabled,
-        Bloom { intensity: 0.06, ..Bloom::NATURAL },
+        Bloom { intensity: sky.bloom, ..Bloom::NATURAL },
         ColorGrading {
             global: ColorGradingGlobal { exposure: 0.0, post_saturation: 1.05, ..default() },
             shadows: ColorGradingSection { lift: 0.004, ..default() },

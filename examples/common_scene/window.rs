@@ -1,10 +1,9 @@
 //! The window: orbit camera, keys, and a small read-out.
 
-use crate::camera::{self, Orbit};
-use crate::cli::{Options, View};
-use crate::graphics;
-use crate::scene::sky::Sky;
-use crate::weathering::{Progress, Repaint};
+use super::camera::{self, Orbit};
+use super::graphics;
+use super::paint::{Progress, Repaint};
+use super::sky::Sky;
 use bevy::anti_alias::fxaa::Fxaa;
 use bevy::input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseScrollUnit};
 use bevy::prelude::*;
@@ -12,27 +11,43 @@ use bevy::window::WindowResolution;
 use bevy_coating::prelude::*;
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 
-pub fn add(app: &mut App, options: &Options) {
-    let (width, height) = options.size;
-    let window = Window { title: "City sign".into(), resolution: WindowResolution::new(width, height), ..default() };
+/// What the window looks at: the first view, until a digit key chooses another.
+#[derive(Resource, Clone, Debug)]
+pub struct Views(pub Vec<(&'static str, Orbit)>);
+
+pub fn add(app: &mut App, title: &str, size: UVec2, views: Views) {
+    let window = Window { title: title.into(), resolution: WindowResolution::new(size.x, size.y), ..default() };
     let window = WindowPlugin { primary_window: Some(window), ..default() };
     app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()).set(graphics::renderer(false)))
         .add_plugins(EguiPlugin::default())
+        .insert_resource(views)
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
-        .add_systems(Update, (keys, orbit))
+        .add_systems(Update, (keys, look, orbit))
         .add_systems(EguiPrimaryContextPass, read_out);
 }
 
-const KEYS: [(&str, &str); 8] = [
+const KEYS: [(&str, &str); 7] = [
     ("Space", "pause"),
     ("S, N", "one step"),
     ("Up, Down", "faster, slower"),
     ("R", "fresh paint"),
-    ("1, 2, 3", "sign, close, street"),
     ("Drag, wheel", "turn, zoom"),
     ("Right drag", "shift"),
     ("H", "this list"),
+];
+
+/// Keys of the views.
+const DIGITS: [KeyCode; 9] = [
+    KeyCode::Digit1,
+    KeyCode::Digit2,
+    KeyCode::Digit3,
+    KeyCode::Digit4,
+    KeyCode::Digit5,
+    KeyCode::Digit6,
+    KeyCode::Digit7,
+    KeyCode::Digit8,
+    KeyCode::Digit9,
 ];
 
 /// Whether the list of keys is open.
@@ -45,8 +60,10 @@ impl Default for Help {
     }
 }
 
-fn spawn_camera(mut commands: Commands, sky: Res<Sky>, options: Res<Options>) {
-    commands.spawn((camera::view(&sky, Orbit::of(options.view)), Fxaa::default()));
+fn spawn_camera(mut commands: Commands, sky: Res<Sky>, views: Res<Views>) {
+    if let Some((_, orbit)) = views.0.first() {
+        commands.spawn((camera::view(&sky, *orbit), Fxaa::default()));
+    }
 }
 
 /// Age per second.
@@ -63,7 +80,6 @@ fn keys(
     mut clock: ResMut<CoatingClock>,
     mut commands: Commands,
     mut help: ResMut<Help>,
-    mut cameras: Query<(&mut Orbit, &mut Projection)>,
     mut exit: MessageWriter<AppExit>,
 ) {
     for key in keyboard.get_just_pressed() {
@@ -83,15 +99,16 @@ fn keys(
             }
             _ => {}
         }
-        let view = match key {
-            KeyCode::Digit1 => View::Sign,
-            KeyCode::Digit2 => View::Close,
-            KeyCode::Digit3 => View::Street,
-            _ => continue,
-        };
-        for (mut orbit, mut projection) in &mut cameras {
-            *orbit = Orbit::of(view);
-            *projection = orbit.projection();
+    }
+}
+
+fn look(keyboard: Res<ButtonInput<KeyCode>>, views: Res<Views>, mut cameras: Query<(&mut Orbit, &mut Projection)>) {
+    for ((_, view), key) in views.0.iter().zip(DIGITS) {
+        if keyboard.just_pressed(key) {
+            for (mut orbit, mut projection) in &mut cameras {
+                *orbit = *view;
+                *projection = view.projection();
+            }
         }
     }
 }
@@ -135,6 +152,7 @@ fn read_out(
     mut clock: ResMut<CoatingClock>,
     mut commands: Commands,
     progress: Progress,
+    views: Res<Views>,
     help: Res<Help>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
@@ -167,7 +185,9 @@ fn read_out(
         if help.0 {
             ui.separator();
             egui::Grid::new("keys").num_columns(2).show(ui, |ui| {
-                for (key, meaning) in KEYS {
+                let numbered = views.0.iter().enumerate().map(|(i, (name, _))| ((i + 1).to_string(), *name));
+                let others = KEYS.map(|(key, meaning)| (key.to_owned(), meaning));
+                for (key, meaning) in numbered.chain(others) {
                     ui.monospace(key);
                     ui.label(meaning);
                     ui.end_row();

@@ -1,76 +1,45 @@
-//! Where the scene meets the coating plugin: which meshes are painted, and when all of them have a film.
+//! Where a scene meets the coating plugin: which meshes are painted, and when all of them have a film.
 
-use crate::cli::Options;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_coating::prelude::*;
 
-/// Paint to be put on a mesh of the scene.
-#[derive(Component, Clone, Copy, Debug)]
-pub struct Painted {
-    pub triangles: u32,
-    pub seed: u64,
-    pub wear: Wear,
-}
-
-/// How a part has fared.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Wear {
-    /// As the command line has it.
-    Street,
-    /// A better primer, or a sheltered place: less has come off.
-    Sheltered,
-}
+/// The paint of a mesh of the scene.
+#[derive(Component, Clone, Debug)]
+pub struct Paint(pub Coating);
 
 /// Props asked for, and those in the scene already.
 #[derive(Resource, Default, Debug)]
 pub struct Loading {
     pub props: usize,
     pub loaded: usize,
+    /// Files that the props are made from.
+    pub files: Vec<UntypedHandle>,
 }
-
-/// Darker than the default: the low sun warms it.
-const BARE_METAL: MetalLook = MetalLook {
-    steel: Color::srgb(0.24, 0.21, 0.19),
-    rust: Color::srgb(0.36, 0.19, 0.095),
-    metallic: 0.55,
-    roughness: 0.7,
-};
 
 /// Fresh paint for everything.
 #[derive(Event)]
 pub struct Repaint;
 
-pub struct WeatheringPlugin;
+pub struct PaintPlugin;
 
-impl Plugin for WeatheringPlugin {
+impl Plugin for PaintPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(CoatingWeatheringPlugin::default())
             .init_resource::<Loading>()
-            .add_systems(Update, (coat, report))
+            .add_systems(Update, (coat, report, give_up))
             .add_observer(repaint);
     }
 }
 
-fn coat(
-    mut commands: Commands,
-    options: Res<Options>,
-    fresh: Query<(Entity, &Painted), (Without<Coating>, With<Mesh3d>)>,
-) {
-    for (entity, painted) in &fresh {
-        let mut settings = options.preset.1.clone();
-        if painted.wear == Wear::Sheltered {
-            settings.adhesion.mean += 0.5;
-            settings.deform.bend_limit *= 0.6;
-        }
-        let coating =
-            Coating::new(settings).with_seed(painted.seed).with_triangles(painted.triangles).with_metal(BARE_METAL);
-        commands.entity(entity).insert(coating);
+fn coat(mut commands: Commands, fresh: Query<(Entity, &Paint), (Without<Coating>, With<Mesh3d>)>) {
+    for (entity, paint) in &fresh {
+        commands.entity(entity).insert(paint.0.clone());
     }
 }
 
 /// Without its coating a mesh is as it was made; [`coat`] then paints it anew.
-fn repaint(_: On<Repaint>, mut commands: Commands, painted: Query<Entity, With<Painted>>) {
+fn repaint(_: On<Repaint>, mut commands: Commands, painted: Query<Entity, With<Paint>>) {
     for entity in &painted {
         commands.entity(entity).remove::<Coating>();
     }
@@ -82,12 +51,20 @@ fn report(mut failures: MessageReader<FilmFailed>) {
     }
 }
 
+/// A model that cannot be loaded would be waited for in vain.
+fn give_up(assets: Res<AssetServer>, loading: Res<Loading>, mut exit: MessageWriter<AppExit>) {
+    if loading.files.iter().any(|file| assets.load_state(file).is_failed()) {
+        error!("A model of the scene is missing; run the example from a whole copy of the repository.");
+        exit.write(AppExit::error());
+    }
+}
+
 /// How far the scene has come.
 #[derive(SystemParam)]
 pub struct Progress<'w, 's> {
     loading: Res<'w, Loading>,
     status: Res<'w, CoatingStatus>,
-    painted: Query<'w, 's, (), With<Painted>>,
+    painted: Query<'w, 's, (), With<Paint>>,
 }
 
 impl Progress<'_, '_> {
@@ -110,7 +87,7 @@ impl Progress<'_, '_> {
         self.status.youngest
     }
 
-    /// Every film has come to `age`, to within half a step.
+    /// Every film has come to `age`, to within half a step of the finest film here.
     pub fn has_reached(&self, age: f64) -> bool {
         self.status.youngest > age - 0.5e-3
     }

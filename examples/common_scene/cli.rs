@@ -1,0 +1,58 @@
+//! What the command lines of all scenes have.
+
+use bevy_coating::settings::CoatingSettings;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Options of every scene.
+#[derive(Args, Clone, Debug)]
+pub struct SceneArgs {
+    /// Render PNG files instead of opening a window (the default where there is no display).
+    #[arg(long)]
+    pub headless: bool,
+    /// Where the pictures go [default: output and the example's name].
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Size of the pictures or of the window [default: fits the view].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Another seed, other cracks.
+    #[arg(long, default_value_t = 7)]
+    pub seed: u64,
+}
+
+impl SceneArgs {
+    /// Where the pictures of `example` go.
+    pub fn folder(&self, example: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| PathBuf::from("output").join(example))
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
+    match parsed {
+        Some((w, h)) if (16..=4096).contains(&w) && (16..=4096).contains(&h) => Ok((w, h)),
+        _ => Err(format!("`{text}` is not WIDTHxHEIGHT with sides from 16 to 4096, such as 1280x720")),
+    }
+}
+
+/// An age from 0 to 4.
+pub fn parse_age(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(age) if (0.0..=4.0).contains(&age) => Ok(age),
+        _ => Err(format!("`{text}` is not an age from 0 to 4")),
+    }
+}
+
+/// A preset, with its name.
+pub fn parse_preset(name: &str) -> Result<(String, CoatingSettings), String> {
+    CoatingSettings::preset(name).map(|settings| (name.to_owned(), settings)).map_err(|error| error.to_string())
+}
+
+/// Paint does not grow back: pictures are taken in order of age, each age once.
+pub fn in_order(ages: &[f64]) -> Vec<f64> {
+    let mut ages = ages.to_vec();
+    ages.sort_by(f64::total_cmp);
+    ages.dedup();
+    ages
+}

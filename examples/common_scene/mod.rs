@@ -1,0 +1,24 @@
+//! Shared by the examples that show something: a scene that ages in a window, in pictures, or, where nothing can be
+//! drawn, as models.
+//!
+//! ```text
+//! cli --> graphics: adapter? --no--> bare: aged models and figures
+//!                      | yes
+//!                   display? --no--> headless: a PNG for every shot
+//!                      | yes
+//!                    window: orbit camera, keys, read-out
+//! ```
+//!
+//! The example itself brings a [`sky::Sky`], its views, and its props, each with a [`paint::Paint`].
+
+#![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
+
+pub mod bare;
+pub mod camera;
+pub mod cli;
+pub mod graphics;
+pub mod headless;
+pub mod paint;
+pub mod picture;
+pub mod sky;
+pub mod window;
