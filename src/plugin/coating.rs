@@ -225,7 +225,7 @@ impl Default for MetalLook {
     fn default() -> Self {
         Self {
             steel: Color::srgb(0.67, 0.66, 0.65),
-            rust: Color::srgb(0.585, 0.323, 0.143),
+            rust: Color::srgb(0.532, 0.285, 0.138),
             metallic: 0.9,
             roughness: 0.42,
         }

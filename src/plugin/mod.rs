@@ -23,7 +23,7 @@ use bevy::{
     },
 };
 
-pub use crate::render::{ATTRIBUTE_REST, ATTRIBUTE_STAINS, CoatingDisplay, StainDisplay};
+pub use crate::render::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, CoatingDisplay, StainDisplay};
 #[cfg(feature = "render")]
 pub use crate::render::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 pub use attach::CoatingAttach;

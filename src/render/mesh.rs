@@ -22,10 +22,15 @@ pub const ATTRIBUTE_STAINS: MeshVertexAttribute =
 pub const ATTRIBUTE_REST: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_Rest", 0x636f_6174_7265_7374, VertexFormat::Float32x3);
 
+/// Unit normal of each vertex of a film's meshes at rest ([`ShownPart::rest_normals`]). Present while stains are shown by a
+/// material.
+pub const ATTRIBUTE_REST_NORMAL: MeshVertexAttribute =
+    MeshVertexAttribute::new("Coating_RestNormal", 0x636f_6174_6e6f_726d, VertexFormat::Float32x3);
+
 /// What the stains of a part's mesh go into.
 #[derive(Clone, Copy)]
 pub(super) enum StainCarrier {
-    /// [`ATTRIBUTE_STAINS`] and [`ATTRIBUTE_REST`].
+    /// [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`] and [`ATTRIBUTE_REST_NORMAL`].
     Attributes,
     /// The vertices' colours.
     Colors,
@@ -126,8 +131,10 @@ pub(super) fn write_part(
     }
     if matches!(stains.carrier, StainCarrier::Attributes) {
         insert(mesh, ATTRIBUTE_REST, whole(&part.rest, nothing, [0.0; 3]));
+        insert(mesh, ATTRIBUTE_REST_NORMAL, whole(&part.rest_normals, nothing, [0.0, 0.0, 1.0]));
     } else {
         remove(mesh, ATTRIBUTE_REST);
+        remove(mesh, ATTRIBUTE_REST_NORMAL);
         remove(mesh, ATTRIBUTE_STAINS);
     }
     write_stains(mesh, part, stains);
@@ -144,11 +151,9 @@ pub(super) fn write_stains(mesh: &mut Mesh, part: &ShownPart, stains: StainWrite
     match stains.carrier {
         StainCarrier::Attributes => insert(mesh, ATTRIBUTE_STAINS, whole(&part.stains, nothing, [0.0; 4])),
         StainCarrier::Colors => {
-            let vertices = part.stains.iter().zip(&part.rest).enumerate();
             let own = |i| part.colors.get(i).copied().unwrap_or([1.0; 4]);
-            let colors: Vec<_> = vertices
-                .map(|(i, (&s, &rest))| stains.paint.color(stains.part, own(i), s, rest, stains.edge))
-                .collect();
+            let color = |i| Some(stains.paint.color(stains.part, own(i), &part.sample(i)?, stains.edge));
+            let colors: Vec<_> = (0..part.positions.len()).filter_map(color).collect();
             insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(&colors, nothing, [1.0; 4]));
         }
         StainCarrier::Nothing => {}

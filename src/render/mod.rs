@@ -27,7 +27,7 @@ use bevy::{
 pub(crate) use film_display::FilmDisplay;
 #[cfg(feature = "render")]
 pub use material::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
-pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_STAINS};
+pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 pub(crate) use paint::FilmPaint;
 pub use paint::StainDisplay;
 #[cfg(feature = "render")]

@@ -78,12 +78,12 @@ impl FilmPaint {
 
     /// Colour of one vertex of `part` whose own colour is `own`. Detail finer than `edge`, the distance between
     /// vertices, is averaged.
-    pub fn color(&self, part: StainPart, own: [f32; 4], stains: [f32; 4], rest: [f32; 3], edge: f32) -> [f32; 4] {
+    pub fn color(&self, part: StainPart, own: [f32; 4], sample: &StainSample, edge: f32) -> [f32; 4] {
         let [red, green, blue, alpha] = own;
         let own = SurfaceLook { base_color: Vec3::new(red, green, blue), ..self.primer_look() };
         let base = if part == StainPart::Back { self.primer_look() } else { own };
         let pattern = self.pattern.with_footprint(edge);
-        let look = self.look.part(part, base, &StainSample::new(stains, rest), &pattern);
+        let look = self.look.part(part, base, sample, &pattern);
         look.base_color.extend(alpha).to_array()
     }
 }

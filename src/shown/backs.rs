@@ -54,6 +54,8 @@ impl Backs {
         part.stains.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].stains[vertex as usize]));
         part.rest.clear();
         part.rest.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest[vertex as usize]));
+        part.rest_normals.clear();
+        part.rest_normals.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest_normals[vertex as usize]));
     }
 
     /// Moves the backs to where the fronts are now.

@@ -53,6 +53,7 @@ impl Metal {
                     let v = original.index();
                     originals.push(original);
                     part.rest.push(geometry.rest_positions[v].to_array());
+                    part.rest_normals.push(attributes.normals[h.index()].to_array());
                     let outwards = if sides.is_flipped(f) { depth } else { -depth };
                     let position = geometry.rest_positions[v] + geometry.rest_normals[v] * outwards;
                     part.positions.push(position.to_array());

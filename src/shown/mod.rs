@@ -183,6 +183,7 @@ impl ShownFilm {
             let rest = |&h| mesh.geometry.rest_positions[mesh.topology.origin(h).index()].to_array();
             part.rest.clear();
             part.rest.extend(corners.iter().map(rest));
+            copy(&mut part.rest_normals, &self.attributes.normals, corners);
         }
     }
 

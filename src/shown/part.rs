@@ -1,5 +1,7 @@
 //! Vertex arrays of a shown part.
 
+use super::look::StainSample;
+
 /// Vertices and triangles of one shown part, in the film's space. Attributes that the prop does not have are empty,
 /// others hold one entry a vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +22,8 @@ pub struct ShownPart {
     pub stains: Vec<[f32; 4]>,
     /// Where each vertex lies at rest: what patterns are tied to, so that they do not swim when flakes move.
     pub rest: Vec<[f32; 3]>,
+    /// Unit normal of each vertex at rest.
+    pub rest_normals: Vec<[f32; 3]>,
     /// Three vertices a triangle, wound as the prop's own triangles are.
     pub indices: Vec<u32>,
 }
@@ -28,6 +32,12 @@ impl ShownPart {
     /// Whether there is nothing to show.
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
+    }
+
+    /// What is known of the stains of vertex `i`; `None` if there is none such.
+    pub fn sample(&self, i: usize) -> Option<StainSample> {
+        let (&stains, &rest, &normal) = (self.stains.get(i)?, self.rest.get(i)?, self.rest_normals.get(i)?);
+        Some(StainSample::new(stains, rest.into(), normal.into()))
     }
 
     pub(super) fn clear(&mut self) {
@@ -39,6 +49,7 @@ impl ShownPart {
         self.colors.clear();
         self.stains.clear();
         self.rest.clear();
+        self.rest_normals.clear();
         self.indices.clear();
     }
 }

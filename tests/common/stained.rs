@@ -8,7 +8,7 @@ use bevy::{
     mesh::{Indices, PrimitiveTopology},
     prelude::*,
 };
-use bevy_coating::plugin::{ATTRIBUTE_REST, ATTRIBUTE_STAINS, StainedMaterial};
+use bevy_coating::plugin::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, StainedMaterial};
 
 use crate::studio::Picture;
 
@@ -28,6 +28,7 @@ pub fn stained_plate(side: f32, n: u32, stains: impl Fn(Vec3) -> [f32; 4]) -> Me
         .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, uvs)
         .with_inserted_attribute(ATTRIBUTE_STAINS, stains)
         .with_inserted_attribute(ATTRIBUTE_REST, positions.clone())
+        .with_inserted_attribute(ATTRIBUTE_REST_NORMAL, vec![[0.0, 0.0, 1.0f32]; positions.len()])
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
         .with_inserted_indices(Indices::U32((0..n * n).flat_map(square).collect()))
 }

@@ -2,7 +2,7 @@
 // there.
 #define_import_path bevy_coating::look
 
-#import bevy_coating::noise::{Grain, Octaves, around, cover, grain, of_level}
+#import bevy_coating::noise::{Grain, Octaves, around, cover, grain, level_grain, of_level}
 
 // `StainUniform` in uniform.rs.
 struct StainUniform {
@@ -47,25 +47,57 @@ struct StainSample {
     moisture: f32,
     corrosion: f32,
     rest: vec3<f32>,
+    normal: vec3<f32>,
     footprint: f32,
 }
 
-const STREAK_EDGE: f32 = 0.16;
+const STREAK_EDGE: f32 = 0.26;
+const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;
 const LEVELS: f32 = 4.0;
+const FRAC_PI_4: f32 = 0.78539816;
 
 fn round_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>) -> Grain {
     return grain(s.rest + u.offset, vec3<f32>(0.0), 1.0, Octaves(sizes, weights), s.footprint);
 }
 
-fn streak_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>, stretch: f32) -> Grain {
-    return grain(s.rest + u.offset, u.streaks, stretch, Octaves(sizes, weights), s.footprint);
+// On the upright plane that faces along the level axes turned by `plane` eighths: what is level is across.
+fn facing(u: StainUniform, s: StainSample, x: vec3<f32>, y: vec3<f32>, plane: f32, octaves: Octaves, stretch: f32) -> Grain {
+    let level = cross(u.streaks, x * cos(plane * FRAC_PI_4) + y * sin(plane * FRAC_PI_4));
+    return level_grain(s.rest + u.offset, level, stretch, octaves, s.footprint);
+}
+
+fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32) -> Grain {
+    let down = u.streaks;
+    let outwards = s.normal - down * dot(down, s.normal);
+    if dot(outwards, outwards) < 1e-4 || all(down == vec3<f32>(0.0)) {
+        return grain(s.rest + u.offset, down, stretch, octaves, s.footprint);
+    }
+    let aside = select(vec3<f32>(0.0, 0.0, 1.0), vec3<f32>(1.0, 0.0, 0.0), abs(down.x) < 0.8);
+    let x = normalize(aside - down * dot(down, aside));
+    let y = cross(down, x);
+    let turn = atan2(dot(outwards, y), dot(outwards, x)) / FRAC_PI_4;
+    let plane = floor(turn);
+    let share = smoothstep(0.25, 0.75, turn - plane);
+    var found: Grain;
+    // A loop, so that the noise is in the program once.
+    for (var i = 0u; i < 2u; i++) {
+        let weight = select(1.0 - share, share, i == 1u);
+        if weight > 0.0 {
+            let g = facing(u, s, x, y, plane + f32(i), octaves, stretch);
+            found.value += weight * g.value;
+            found.slope += weight * g.slope;
+            found.kept += weight * g.kept;
+        }
+    }
+    return found;
 }
 
 fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) -> SurfaceLook {
     var look = base;
-    look.base_color = mix(base.base_color, color, covered);
+    let own = max(base.base_color, vec3<f32>(DARKEST));
+    look.base_color = own * pow(max(color, vec3<f32>(DARKEST)) / own, vec3<f32>(covered));
     look.metallic = base.metallic * (1.0 - covered);
     look.roughness = mix(base.roughness, u.rust_roughness, covered);
     look.reflectance = mix(base.reflectance, vec3<f32>(RUST_REFLECTANCE), covered);
@@ -74,28 +106,33 @@ fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) ->
 
 fn run_off(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain, blotch: Grain) -> SurfaceLook {
     let amount = 1.0 - exp(-3.0 * s.rust);
+    let hairs = Octaves(u.streak_width * vec3<f32>(0.6, 0.25, 0.1), vec3<f32>(0.4, 0.4, 0.3));
+    let hair = streak_grain(u, s, hairs, 2.5 * u.streak_stretch);
     let core = cover(streak, amount, STREAK_EDGE);
-    let wash = min(amount * around(streak, 1.0, 0.6) * around(blotch, 1.0, 0.3), 1.0);
-    let covered = mix(wash, core, 0.62) * u.rust_strength;
-    let thick = smoothstep(0.35, 1.05, amount * around(streak, 0.75, 0.45) + 0.1 * around(blotch, 0.0, 1.0));
+    let wash = amount * around(streak, 1.0, 0.7) * around(blotch, 1.0, 0.25);
+    let covered = clamp(mix(wash, core, 0.5) * around(hair, 1.0, 0.3), 0.0, 1.0) * u.rust_strength;
+    let depth = amount * around(streak, 0.72, 0.42) * around(hair, 1.0, 0.2);
+    let thick = smoothstep(0.3, 1.05, depth + 0.1 * around(blotch, 0.0, 1.0));
     let color = mix(u.rust_thin, u.rust_thick, thick) * around(blotch, 1.0, 0.16);
     return rusted(u, base, color, covered);
 }
 
 fn dusty(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain) -> SurfaceLook {
-    let patches = round_grain(u, s, u.dust_size * vec3<f32>(1.0, 0.37, 0.1), vec3<f32>(0.5, 0.35, 0.3));
-    let gathered = mix(s.dust, cover(patches, s.dust, 0.35), 0.55) * around(streak, 1.0, 0.18);
-    let covered = clamp(u.dust_strength * gathered, 0.0, 1.0);
+    let patches = round_grain(u, s, u.dust_size * vec3<f32>(1.6, 0.5, 0.08), vec3<f32>(0.5, 0.4, 0.2));
+    let lying = s.dust * around(patches, 1.0, 0.45) * around(streak, 1.0, 0.3);
+    let gathered = clamp(mix(lying, cover(patches, s.dust, 0.5), 0.1), 0.0, 1.0);
+    let covered = u.dust_strength * gathered;
     var look = base;
     look.base_color = mix(base.base_color, u.dust, covered);
     look.metallic = base.metallic * (1.0 - covered);
     look.roughness = mix(base.roughness, max(base.roughness, 0.95), min(1.3 * covered, 1.0));
-    look.reflectance = base.reflectance * (1.0 - u.dust_dulling * clamp(gathered, 0.0, 1.0));
+    look.reflectance = base.reflectance * (1.0 - u.dust_dulling * gathered);
     return look;
 }
 
 fn wet(u: StainUniform, base: SurfaceLook, s: StainSample, porous: f32) -> SurfaceLook {
-    let patches = streak_grain(u, s, u.dust_size * vec3<f32>(1.0, 0.4, 0.15), vec3<f32>(0.5, 0.4, 0.2), 4.0);
+    let sheets = Octaves(u.dust_size * vec3<f32>(1.0, 0.4, 0.15), vec3<f32>(0.5, 0.4, 0.2));
+    let patches = streak_grain(u, s, sheets, 4.0);
     let covered = cover(patches, s.moisture, 0.3);
     let darkening = min(u.wet_darkening * (1.0 + 0.5 * min(porous, 1.0)), 1.0);
     var look = base;
@@ -117,7 +154,8 @@ fn creeping(u: StainUniform, base: SurfaceLook, s: StainSample, blotch: Grain) -
 #ifdef STAIN_METAL
 fn steel(u: StainUniform, s: StainSample) -> SurfaceLook {
     let lines = Octaves(vec3<f32>(0.0011, 0.0005, 0.00025), vec3<f32>(0.4, 0.4, 0.3));
-    let scratches = grain(s.rest + u.offset, vec3<f32>(0.796, 0.243, 0.554), 90.0, lines, s.footprint);
+    let up = select(u.streaks, vec3<f32>(0.0, 1.0, 0.0), all(u.streaks == vec3<f32>(0.0)));
+    let scratches = level_grain(s.rest + u.offset, up, 90.0, lines, s.footprint);
     var look: SurfaceLook;
     look.base_color = u.steel * around(scratches, 1.0, 0.12);
     look.metallic = u.steel_metallic;
@@ -144,8 +182,8 @@ fn corroded(u: StainUniform, bright: SurfaceLook, s: StainSample, streak: Grain)
     let edge = smoothstep(0.55, 0.8, within) * (1.0 - rise);
     let shade = 1.0 - 0.45 * edge * scales.kept;
     let dark = u.first_rust * around(grit, 1.25, 0.7);
-    let orange = u.rust * mix(vec3<f32>(0.34), vec3<f32>(1.45, 1.75, 1.9), tint * tint);
-    let tone = around(grit, 0.92, 0.34) * around(streak, 0.95, 0.22) * shade;
+    let orange = u.rust * mix(vec3<f32>(0.34), vec3<f32>(1.4, 1.6, 1.65), tint * tint);
+    let tone = around(grit, 0.95, 0.34) * around(streak, 0.95, 0.3) * around(patches, 1.0, 0.25) * shade;
     let pits = smoothstep(0.8, 0.93, 1.0 - grit.value) * grit.kept * smoothstep(0.1, 0.5, age);
     let color = mix(dark, orange * tone, 0.92 * layered) * (1.0 - 0.65 * pits);
     let rough = mix(0.62, 0.95, layered) - 0.1 * (1.0 - layered) * around(grit, 0.0, 1.0);
@@ -171,8 +209,8 @@ fn stained(u: StainUniform, base: SurfaceLook, s: StainSample) -> SurfaceLook {
     var porous = s.rust;
     var streak: Grain;
     if s.rust > 0.0 || s.dust > 0.0 || s.corrosion > 0.0 {
-        let sizes = u.streak_width * vec3<f32>(2.5, 1.0, 0.42);
-        streak = streak_grain(u, s, sizes, vec3<f32>(0.5, 0.42, 0.26), u.streak_stretch);
+        let widths = Octaves(u.streak_width * vec3<f32>(2.5, 1.0, 0.42), vec3<f32>(0.5, 0.42, 0.26));
+        streak = streak_grain(u, s, widths, u.streak_stretch);
     }
     var blotch: Grain;
     if s.rust > 0.0 || s.corrosion > 0.0 {

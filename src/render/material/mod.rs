@@ -1,6 +1,6 @@
 //! Stains as an extension of `StandardMaterial`: everything that the prop's own material does goes on working, and the
 //! shader draws run-off, dust, water and rusted metal over it, from the fields in the mesh
-//! ([`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`]) and noise in metres.
+//! ([`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`], [`ATTRIBUTE_REST_NORMAL`]) and noise in metres.
 //!
 //! The shader is embedded, so with Bevy's `embedded_watcher` it can be edited while a game runs. Forward and deferred
 //! passes are drawn by it; prepass and shadows, in which nothing of this can be seen, by Bevy's own shaders.
@@ -12,7 +12,7 @@ mod uniform;
 use bevy::{
     app::App,
     asset::{Asset, embedded_asset},
-    mesh::MeshVertexBufferLayoutRef,
+    mesh::{MeshVertexAttribute, MeshVertexBufferLayoutRef},
     pbr::{MaterialExtension, MaterialExtensionKey, MaterialExtensionPipeline, MaterialPlugin, PbrPlugin},
     prelude::*,
     render::{
@@ -28,16 +28,18 @@ pub(super) use follow::{follow_paint, follow_standard_materials};
 pub(crate) use uniform::StainUniform;
 pub use uniform::StainedMaterial;
 
-use super::mesh::{ATTRIBUTE_REST, ATTRIBUTE_STAINS};
+use super::mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 use crate::shown::look::{StainLook, StainPart, StainPattern};
 
 /// Where the shader is among embedded assets.
 const SHADER: &str = "embedded://bevy_coating/render/material/weathering.wgsl";
 
-/// Locations of the stains among vertex attributes: free in Bevy's forward and prepass layouts.
-const LOCATIONS: [u32; 2] = [8, 9];
+/// What the shader needs of a vertex, and where: at locations that are free in Bevy's forward and prepass layouts.
+const ATTRIBUTES: [(MeshVertexAttribute, u32); 3] =
+    [(ATTRIBUTE_STAINS, 8), (ATTRIBUTE_REST, 9), (ATTRIBUTE_REST_NORMAL, 10)];
 
-/// Stains on a `StandardMaterial`. Meshes that wear it need [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`] and normals.
+/// Stains on a `StandardMaterial`. Meshes that wear it need [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`],
+/// [`ATTRIBUTE_REST_NORMAL`] and normals.
 #[derive(Asset, AsBindGroup, Reflect, Clone, Debug, Default, PartialEq)]
 #[uniform(100, StainUniform)]
 #[bind_group_data(StainPart)]
@@ -115,10 +117,8 @@ impl MaterialExtension for StainExtension {
         if let Some(fragment) = &mut descriptor.fragment {
             fragment.shader_defs.push(part.into());
         }
-        let [stains, rest] = LOCATIONS;
-        let ours = layout
-            .0
-            .get_layout(&[ATTRIBUTE_STAINS.at_shader_location(stains), ATTRIBUTE_REST.at_shader_location(rest)])?;
+        let ours = ATTRIBUTES.map(|(attribute, location)| attribute.at_shader_location(location));
+        let ours = layout.0.get_layout(&ours)?;
         if let Some(buffer) = descriptor.vertex.buffers.first_mut() {
             buffer.attributes.extend(ours.attributes);
         }

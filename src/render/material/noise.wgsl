@@ -73,8 +73,25 @@ fn noise(p: vec3<f32>) -> vec4<f32> {
 
 // A pattern at `p`, whose grains are `stretch` times as long along `direction`, a unit vector or zero.
 fn grain(p: vec3<f32>, direction: vec3<f32>, stretch: f32, octaves: Octaves, footprint: f32) -> Grain {
-    let along = direction * dot(direction, p);
-    let across = p - along;
+    return sum_octaves(p, direction, 1.0, stretch, octaves, footprint);
+}
+
+// A pattern at `p`, whose grains are `stretch` times as long along all that is at right angles to `direction`.
+fn level_grain(p: vec3<f32>, direction: vec3<f32>, stretch: f32, octaves: Octaves, footprint: f32) -> Grain {
+    return sum_octaves(p, direction, stretch, 1.0, octaves, footprint);
+}
+
+// Grains `across` as wide and `along` as long along `direction` as their size.
+fn sum_octaves(
+    p: vec3<f32>,
+    direction: vec3<f32>,
+    across: f32,
+    along: f32,
+    octaves: Octaves,
+    footprint: f32,
+) -> Grain {
+    let p_along = direction * dot(direction, p);
+    let p_across = p - p_along;
     var sum = vec4<f32>(0.0);
     var kept = 0.0;
     var all = 0.0;
@@ -83,9 +100,9 @@ fn grain(p: vec3<f32>, direction: vec3<f32>, stretch: f32, octaves: Octaves, foo
         let weight = octaves.weights[i];
         let seen = weight * (1.0 - smoothstep(0.35, 1.0, footprint / size));
         if seen > 0.0 {
-            let n = noise(across / size + along / (size * stretch) + 19.37 * f32(i));
+            let n = noise(p_across / (size * across) + p_along / (size * along) + 19.37 * f32(i));
             let slope_along = direction * dot(direction, n.xyz);
-            let slope = (n.xyz - slope_along) / size + slope_along / (size * stretch);
+            let slope = (n.xyz - slope_along) / (size * across) + slope_along / (size * along);
             sum += seen * vec4<f32>(slope, n.w);
         }
         kept += seen * seen;

@@ -39,6 +39,7 @@ const VIEW_NORMAL: u32 = 3u;
 struct StainVarying {
     @location(10) stains: vec4<f32>,
     @location(11) rest: vec3<f32>,
+    @location(12) rest_normal: vec3<f32>,
 }
 
 // Bevy's `VertexOutput` of the pass, and the above: structs with locations cannot be nested.
@@ -88,10 +89,16 @@ struct StainedOutput {
 #endif
     @location(10) stains: vec4<f32>,
     @location(11) rest: vec3<f32>,
+    @location(12) rest_normal: vec3<f32>,
 }
 
 @vertex
-fn vertex(in: Vertex, @location(8) stains: vec4<f32>, @location(9) rest: vec3<f32>) -> StainedOutput {
+fn vertex(
+    in: Vertex,
+    @location(8) stains: vec4<f32>,
+    @location(9) rest: vec3<f32>,
+    @location(10) rest_normal: vec3<f32>,
+) -> StainedOutput {
     var out: StainedOutput;
     let world_from_local = mesh_functions::get_world_from_local(in.instance_index);
     out.world_position = mesh_functions::mesh_position_local_to_world(world_from_local, vec4<f32>(in.position, 1.0));
@@ -124,6 +131,7 @@ fn vertex(in: Vertex, @location(8) stains: vec4<f32>, @location(9) rest: vec3<f3
 #endif
     out.stains = stains;
     out.rest = rest;
+    out.rest_normal = rest_normal;
     return out;
 }
 
@@ -164,6 +172,7 @@ fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_fro
         extra.stains.z,
         extra.stains.w,
         extra.rest,
+        extra.rest_normal,
         sqrt(length(rest_x) * length(rest_y)),
     );
     var base: SurfaceLook;

@@ -8,7 +8,9 @@ use super::{
 };
 
 /// Softness of the edges of streaks.
-const STREAK_EDGE: f32 = 0.16;
+const STREAK_EDGE: f32 = 0.26;
+/// Linear colour below which a channel is black.
+const DARKEST: f32 = 1e-3;
 /// Reflectance of rust: it scatters.
 const RUST_REFLECTANCE: f32 = 0.3;
 /// Reflectance of a film of water, 2 %.
@@ -40,15 +42,16 @@ impl StainLook {
             return base;
         }
         let amount = 1.0 - ops::exp(-3.0 * s.rust);
-        let streak = self.streaks(s.rest, p);
+        let streak = self.streaks(s, p);
+        let hair = self.hairs(s, p);
         let blotches = p.grain(s.rest, self.blotches());
-        // Cores of streaks over a thin wash.
+        // Cores of streaks over a thin wash, both drawn out into hairs.
         let core = streak.cover(amount, STREAK_EDGE);
-        let wash = (amount * streak.around(1.0, 0.6) * blotches.around(1.0, 0.3)).min(1.0);
-        let cover = mix(wash, core, 0.62) * self.rust_strength;
-        let thick = smoothstep(0.35, 1.05, amount * streak.around(0.75, 0.45) + 0.1 * blotches.around(0.0, 1.0));
-        let tone = blotches.around(1.0, 0.16);
-        let color = self.rust_thin.lerp(self.rust_thick, thick) * tone;
+        let wash = amount * streak.around(1.0, 0.7) * blotches.around(1.0, 0.25);
+        let cover = (mix(wash, core, 0.5) * hair.around(1.0, 0.3)).clamp(0.0, 1.0) * self.rust_strength;
+        let depth = amount * streak.around(0.72, 0.42) * hair.around(1.0, 0.2);
+        let thick = smoothstep(0.3, 1.05, depth + 0.1 * blotches.around(0.0, 1.0));
+        let color = self.rust_thin.lerp(self.rust_thick, thick) * blotches.around(1.0, 0.16);
         self.rusted(base, color, cover)
     }
 
@@ -58,15 +61,16 @@ impl StainLook {
             return base;
         }
         let size = self.dust_size;
-        let patches = p.grain(s.rest, [(size, 0.5), (size * 0.37, 0.35), (size * 0.1, 0.3)]);
-        let washed = self.streaks(s.rest, p);
-        let gathered = mix(s.dust, patches.cover(s.dust, 0.35), 0.55) * washed.around(1.0, 0.18);
-        let cover = (self.dust_strength * gathered).clamp(0.0, 1.0);
+        let patches = p.grain(s.rest, [(size * 1.6, 0.5), (size * 0.5, 0.4), (size * 0.08, 0.2)]);
+        let washed = self.streaks(s, p);
+        let lying = s.dust * patches.around(1.0, 0.45) * washed.around(1.0, 0.3);
+        let gathered = mix(lying, patches.cover(s.dust, 0.5), 0.1).clamp(0.0, 1.0);
+        let cover = self.dust_strength * gathered;
         SurfaceLook {
             base_color: base.base_color.lerp(self.dust, cover),
             metallic: base.metallic * (1.0 - cover),
             roughness: mix(base.roughness, base.roughness.max(0.95), (1.3 * cover).min(1.0)),
-            reflectance: base.reflectance * (1.0 - self.dust_dulling * gathered.clamp(0.0, 1.0)),
+            reflectance: base.reflectance * (1.0 - self.dust_dulling * gathered),
             height: base.height,
         }
     }
@@ -77,7 +81,7 @@ impl StainLook {
             return base;
         }
         let size = self.dust_size;
-        let patches = p.streak(s.rest, [(size, 0.5), (size * 0.4, 0.4), (size * 0.15, 0.2)], 4.0);
+        let patches = p.streak(s.rest, s.normal, [(size, 0.5), (size * 0.4, 0.4), (size * 0.15, 0.2)], 4.0);
         let wet = patches.cover(s.moisture, 0.3);
         let darkening = (self.wet_darkening * (1.0 + 0.5 * porous.min(1.0))).min(1.0);
         SurfaceLook {
@@ -89,10 +93,14 @@ impl StainLook {
         }
     }
 
-    /// `cover` of the surface hidden under rust of `color`.
+    /// `cover` of the surface hidden under rust of `color`. It stains as a filter does, channel by channel: thin rust
+    /// on light paint is orange, not pink.
     pub(super) fn rusted(&self, base: SurfaceLook, color: Vec3, cover: f32) -> SurfaceLook {
+        let filtered =
+            |base: f32, rust: f32| base.max(DARKEST) * ops::powf(rust.max(DARKEST) / base.max(DARKEST), cover);
+        let (from, to) = (base.base_color, color);
         SurfaceLook {
-            base_color: base.base_color.lerp(color, cover),
+            base_color: Vec3::new(filtered(from.x, to.x), filtered(from.y, to.y), filtered(from.z, to.z)),
             metallic: base.metallic * (1.0 - cover),
             roughness: mix(base.roughness, self.rust_roughness, cover),
             reflectance: mix(base.reflectance, RUST_REFLECTANCE, cover),
@@ -100,9 +108,16 @@ impl StainLook {
         }
     }
 
-    pub(super) fn streaks(&self, rest: Vec3, p: &StainPattern) -> Grain {
+    pub(super) fn streaks(&self, s: &StainSample, p: &StainPattern) -> Grain {
         let width = self.streak_width;
-        p.streak(rest, [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)], self.streak_stretch)
+        let octaves = [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)];
+        p.streak(s.rest, s.normal, octaves, self.streak_stretch)
+    }
+
+    fn hairs(&self, s: &StainSample, p: &StainPattern) -> Grain {
+        let width = self.streak_width;
+        let octaves = [(width * 0.6, 0.4), (width * 0.25, 0.4), (width * 0.1, 0.3)];
+        p.streak(s.rest, s.normal, octaves, 2.5 * self.streak_stretch)
     }
 
     fn blotches(&self) -> [(f32, f32); 3] {

@@ -28,7 +28,7 @@ impl StainLook {
     }
 
     fn steel(&self, rest: Vec3, p: &StainPattern) -> SurfaceLook {
-        let scratches = p.scratches(rest, [(0.0011, 0.4), (0.0005, 0.4), (0.00025, 0.3)], 90.0);
+        let scratches = p.brushed(rest, [(0.0011, 0.4), (0.0005, 0.4), (0.00025, 0.3)], 90.0);
         SurfaceLook {
             base_color: self.steel * scratches.around(1.0, 0.12),
             metallic: self.steel_metallic,
@@ -43,7 +43,7 @@ impl StainLook {
         if s.corrosion <= 0.0 {
             return steel;
         }
-        let patterns = self.patterns(s.rest, p);
+        let patterns = self.patterns(s, p);
         let Patterns { patches, scales, grit, streak } = &patterns;
         // Some patches are ahead of others; at both ends all are alike.
         let spread = s.corrosion * (1.0 - s.corrosion);
@@ -56,9 +56,9 @@ impl StainLook {
         let shade = 1.0 - 0.45 * step.edge * scales.kept;
         let level = mix(0.5, step.tint, scales.kept);
         let dark = self.first_rust * grit.around(1.25, 0.7);
-        let ochre = Vec3::new(1.45, 1.75, 1.9);
+        let ochre = Vec3::new(1.4, 1.6, 1.65);
         let orange = self.rust * (Vec3::splat(0.34)).lerp(ochre, level * level);
-        let tone = grit.around(0.92, 0.34) * streak.around(0.95, 0.22) * shade;
+        let tone = grit.around(0.95, 0.34) * streak.around(0.95, 0.3) * patches.around(1.0, 0.25) * shade;
         let pits = smoothstep(0.8, 0.93, 1.0 - grit.value) * grit.kept * smoothstep(0.1, 0.5, age);
         let color = dark.lerp(orange * tone, 0.92 * layered) * (1.0 - 0.65 * pits);
         let rough = mix(0.62, 0.95, layered) - 0.1 * (1.0 - layered) * grit.around(0.0, 1.0);
@@ -73,13 +73,13 @@ impl StainLook {
         }
     }
 
-    fn patterns(&self, rest: Vec3, p: &StainPattern) -> Patterns {
-        let size = self.patch_size;
+    fn patterns(&self, s: &StainSample, p: &StainPattern) -> Patterns {
+        let (size, rest) = (self.patch_size, s.rest);
         Patterns {
             patches: p.grain(rest, [(size * 2.1, 0.5), (size, 0.42), (size * 0.4, 0.25)]),
             scales: p.grain(rest, [(size * 0.5, 0.5), (size * 0.21, 0.36), (size * 0.08, 0.2)]),
             grit: p.grain(rest, [(size * 0.11, 0.4), (size * 0.045, 0.42), (size * 0.02, 0.34)]),
-            streak: self.streaks(rest, p),
+            streak: self.streaks(s, p),
         }
     }
 }

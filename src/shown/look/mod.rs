@@ -53,12 +53,14 @@ pub struct StainSample {
     pub corrosion: f32,
     /// The place at rest, in the film's space.
     pub rest: Vec3,
+    /// Unit normal of the surface there, at rest; zero if it is not known.
+    pub normal: Vec3,
 }
 
 impl StainSample {
-    /// The sample of one vertex of a shown part: its stains and its place at rest.
-    pub fn new([rust, dust, moisture, corrosion]: [f32; 4], rest: [f32; 3]) -> Self {
-        Self { rust, dust, moisture, corrosion, rest: Vec3::from_array(rest) }
+    /// The sample of one vertex of a shown part: its stains, its place at rest and its normal there.
+    pub fn new([rust, dust, moisture, corrosion]: [f32; 4], rest: Vec3, normal: Vec3) -> Self {
+        Self { rust, dust, moisture, corrosion, rest, normal }
     }
 }
 

@@ -1,8 +1,10 @@
 //! Where on its patterns a surface lies.
 
-use bevy_math::Vec3;
+use std::f32::consts::FRAC_PI_4;
 
-use super::noise::{Grain, Octave, grain, hash};
+use bevy_math::{Vec3, ops};
+
+use super::noise::{Grain, Octave, grain, hash, mix, smoothstep};
 
 /// How a prop's patterns lie: along what they run and which part of them it shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,21 +38,54 @@ impl StainPattern {
         grain(octaves, self.footprint, |size| p / size)
     }
 
-    /// A pattern of grains that are `stretch` times as long along the streaks as they are wide. The wider an octave,
-    /// the more of it is spread along.
-    pub(super) fn streak(&self, rest: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
+    /// A pattern of grains that are `stretch` times as long down the surface at `rest` as they are wide. `normal` is
+    /// that of the surface; zero if it is not known, then grains are long on upright surfaces only.
+    pub(super) fn streak(&self, rest: Vec3, normal: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
         let p = rest + self.offset;
-        let along = self.streaks * self.streaks.dot(p);
-        let across = p - along;
-        grain(octaves, self.footprint, |size| across / size + along / (size * stretch))
+        let down = self.streaks;
+        let outwards = normal - down * down.dot(normal);
+        let flat = outwards.length_squared() < 1e-4 || down == Vec3::ZERO;
+        if flat {
+            let along = down * down.dot(p);
+            let across = p - along;
+            return grain(octaves, self.footprint, |size| across / size + along / (size * stretch));
+        }
+        // What is across must not change down the surface. So it is measured level along the surface, on one of eight
+        // upright planes, and blended where a surface faces between two of them.
+        let (x, y) = level_axes(down);
+        let turn = ops::atan2(outwards.dot(y), outwards.dot(x)) / FRAC_PI_4;
+        let facing = |plane: f32| {
+            let (sin, cos) = (ops::sin(plane * FRAC_PI_4), ops::cos(plane * FRAC_PI_4));
+            let level = down.cross(x * cos + y * sin);
+            let across = level * level.dot(p);
+            let along = p - across;
+            grain(octaves, self.footprint, |size| across / size + along / (size * stretch))
+        };
+        let plane = turn.floor();
+        let share = smoothstep(0.25, 0.75, turn - plane);
+        if share <= 0.0 {
+            facing(plane)
+        } else if share >= 1.0 {
+            facing(plane + 1.0)
+        } else {
+            let (a, b) = (facing(plane), facing(plane + 1.0));
+            Grain { value: mix(a.value, b.value, share), kept: mix(a.kept, b.kept, share) }
+        }
     }
 
-    /// A pattern of lines `stretch` times as long as they are wide, in two directions that no prop is aligned with.
-    pub(super) fn scratches(&self, rest: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
+    /// A pattern of level lines `stretch` times as long as they are wide, as brushing leaves them.
+    pub(super) fn brushed(&self, rest: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
         let p = rest + self.offset;
-        let direction = Vec3::new(0.796, 0.243, 0.554);
-        let along = direction * direction.dot(p);
-        let across = p - along;
+        let up = if self.streaks == Vec3::ZERO { Vec3::Y } else { self.streaks };
+        let across = up * up.dot(p);
+        let along = p - across;
         grain(octaves, self.footprint, |size| across / size + along / (size * stretch))
     }
+}
+
+/// Two axes at right angles to `down` and each other.
+fn level_axes(down: Vec3) -> (Vec3, Vec3) {
+    let aside = if down.x.abs() < 0.8 { Vec3::X } else { Vec3::Z };
+    let x = (aside - down * down.dot(aside)).normalize();
+    (x, down.cross(x))
 }

@@ -54,7 +54,7 @@ pub struct StainLook {
 impl Default for StainLook {
     fn default() -> Self {
         Self {
-            rust_thin: Vec3::new(0.36, 0.115, 0.026),
+            rust_thin: Vec3::new(0.33, 0.105, 0.024),
             rust_thick: Vec3::new(0.060, 0.020, 0.009),
             rust_strength: 0.85,
             rust_roughness: 0.9,
@@ -71,7 +71,7 @@ impl Default for StainLook {
             steel_metallic: 0.9,
             steel_roughness: 0.42,
             first_rust: Vec3::new(0.030, 0.016, 0.011),
-            rust: Vec3::new(0.30, 0.085, 0.018),
+            rust: Vec3::new(0.245, 0.066, 0.017),
             patch_size: 0.035,
             relief: 0.0005,
         }

@@ -62,7 +62,7 @@ fn clean_paint_and_primer_are_what_they_were() {
 #[test]
 fn stains_begin_without_a_jump() {
     let look = StainLook::default();
-    let little = StainSample { rust: 1e-4, dust: 1e-4, moisture: 1e-4, corrosion: 1e-4, rest: Vec3::ZERO };
+    let little = StainSample { rust: 1e-4, dust: 1e-4, moisture: 1e-4, corrosion: 1e-4, ..StainSample::default() };
     for rest in plate() {
         let s = StainSample { rest, ..little };
         for found in [look.film(PAINT, &s, &pattern()), look.back(PAINT, &s, &pattern())] {
@@ -85,25 +85,34 @@ fn rust_turns_paint_orange_then_brown_and_rough() {
 
 #[test]
 fn cover_follows_the_papers_mix_on_average() {
-    // Black rust on white paint shows how much is covered.
-    let look = StainLook { rust_thin: Vec3::ZERO, rust_thick: Vec3::ZERO, ..StainLook::default() };
-    let white = SurfaceLook { base_color: Vec3::ONE, ..PAINT };
+    // Roughness shows how much is covered.
+    let look = StainLook { rust_roughness: 1.0, ..StainLook::default() };
+    let smooth = SurfaceLook { roughness: 0.0, ..PAINT };
     for rust in [0.05f32, 0.2, 0.5, 1.5] {
         let s = |rest| StainSample { rust, rest, ..StainSample::default() };
-        let covered = 1.0 - mean(plate().map(|rest| look.film(white, &s(rest), &pattern()))).base_color.x;
+        let covered = mean(plate().map(|rest| look.film(smooth, &s(rest), &pattern()))).roughness;
         let expected = 0.85 * (1.0 - (-3.0 * rust).exp());
         assert!((covered - expected).abs() < 0.15 * expected, "{rust} layers: {covered} instead of {expected}");
     }
 }
 
 #[test]
-fn run_off_is_streaked_along_its_direction() {
+fn run_off_is_streaked_down_the_surface() {
     let look = StainLook::default();
-    let at = |rest| look.film(PAINT, &StainSample { rust: 0.25, rest, ..StainSample::default() }, &pattern());
-    let difference =
-        |step: Vec3| -> f32 { plate().map(|rest| (at(rest).base_color - at(rest + step).base_color).length()).sum() };
-    let (along, across) = (difference(Vec3::Y * 0.003), difference(Vec3::X * 0.003));
-    assert!(across > 4.0 * along, "{along} along, {across} across");
+    // Upright, and leaning back by 45 degrees to where no upright plane of the pattern looks.
+    let leaning = Vec3::new(0.6, 1.0, 0.8).normalize();
+    for normal in [Vec3::Z, leaning] {
+        let level = Vec3::NEG_Y.cross(normal).normalize();
+        let down = level.cross(normal).normalize();
+        let at = |p: Vec3| {
+            let rest = level * p.x + down * p.y;
+            let s = StainSample { rust: 0.25, rest, normal, ..StainSample::default() };
+            look.film(PAINT, &s, &pattern()).base_color
+        };
+        let change = |step: Vec3| -> f32 { plate().map(|p| (at(p) - at(p + step)).length()).sum() };
+        let (along, across) = (change(Vec3::Y * 0.004), change(Vec3::X * 0.004));
+        assert!(across > 3.0 * along, "{normal}: {along} along, {across} across");
+    }
 }
 
 #[test]
@@ -126,7 +135,7 @@ fn metal_goes_from_steel_through_dark_to_orange() {
 fn a_wide_footprint_gives_the_mean() {
     let look = StainLook::default();
     let wide = pattern().with_footprint(0.5);
-    let s = StainSample { rust: 0.3, dust: 0.3, moisture: 0.2, corrosion: 0.6, rest: Vec3::ZERO };
+    let s = StainSample { rust: 0.3, dust: 0.3, moisture: 0.2, corrosion: 0.6, ..StainSample::default() };
     let point = look.film(PAINT, &s, &wide);
     let all = mean(plate().map(|rest| look.film(PAINT, &StainSample { rest, ..s }, &pattern())));
     assert!(point.base_color.abs_diff_eq(all.base_color, 0.05), "{point:?} {all:?}");
