@@ -117,6 +117,7 @@ impl Unwrapped {
             colors: pick(&part.colors, &self.sources),
             stains: pick(&part.stains, &self.sources),
             rest: pick(&part.rest, &self.sources),
+            rest_normals: pick(&part.rest_normals, &self.sources),
             indices: self.indices.clone(),
         }
     }
