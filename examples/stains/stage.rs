@@ -143,7 +143,7 @@ fn frame(theme: usize, rows: &[Row]) -> (Vec2, Vec3) {
     let roof = if rows.iter().any(|row| row.roof) { 0.25 } else { 0.0 };
     // Seen from a little above, depth counts as height.
     let (sin, cos) = PITCH.sin_cos();
-    let top = (last.y + TALL + roof + 0.12) * cos - (last.z - TREAD / 2.0) * sin;
+    let top = (last.y + TALL + roof - 0.06) * cos - (last.z - TREAD / 2.0) * sin;
     let bottom = -0.12 * cos - TREAD / 2.0 * sin;
     let across = (top + bottom) / 2.0;
     (Vec2::new(WIDTH + 0.3, top - bottom), Vec3::new(last.x, across / cos, 0.0))

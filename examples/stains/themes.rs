@@ -29,7 +29,7 @@ pub struct Row {
 }
 
 /// Where the rain comes from: the left.
-pub const RAIN: Vec3 = Vec3::new(0.53, -0.83, -0.17);
+pub const RAIN: Vec3 = Vec3::new(0.55, -0.72, -0.32);
 /// Where the wind blows to.
 pub const WIND: Vec3 = Vec3::new(0.8, 0.0, 0.0);
 pub const GUSTS: f32 = 0.06;
@@ -77,6 +77,7 @@ fn dust(plain: &Row) -> Vec<Row> {
         settings.tearing.weak_probability = 0.0;
         settings.tearing.binding = 1e6;
         settings.moisture.wetting = 0.0;
+        settings.dust.rate *= 1.6;
         (settings.dust.height, settings.dust.direction, settings.dust.curvature) = (height, direction, curvature);
         let detail = format!("dust.height {height}   direction {direction}   curvature {curvature}");
         Row { name, title, detail, settings, ..plain.clone() }
