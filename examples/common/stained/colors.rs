@@ -60,8 +60,7 @@ pub fn bare(
 }
 
 fn sample(part: &ShownPart, i: usize) -> StainSample {
-    let [rust, dust, moisture, corrosion] = part.stains.get(i).copied().unwrap_or_default();
-    StainSample { rust, dust, moisture, corrosion, rest: part.rest[i].into() }
+    part.sample(i).unwrap_or_default()
 }
 
 /// What to multiply `base` with for `stained`. Colours cannot make a surface brighter than its texture.

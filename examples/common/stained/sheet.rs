@@ -194,8 +194,9 @@ impl Triangle<'_> {
         let part = self.patch.part;
         let [rust, dust, moisture, corrosion] =
             self.blend(weights, |v| Vec4::from(part.stains.get(v).copied().unwrap_or_default())).to_array();
-        let rest = self.blend(weights, |v| Vec3::from(part.rest[v]).extend(0.0)).truncate();
-        StainSample { rust, dust, moisture, corrosion, rest }
+        let mean = |of: &[[f32; 3]]| self.blend(weights, |v| Vec3::from(of[v]).extend(0.0)).truncate();
+        let (rest, normal) = (mean(&part.rest), mean(&part.rest_normals).normalize_or_zero());
+        StainSample { rust, dust, moisture, corrosion, rest, normal }
     }
 
     fn place(&self, weights: Vec3) -> Place {
