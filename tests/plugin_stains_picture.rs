@@ -101,6 +101,7 @@ fn the_shader_draws_what_its_twin_says() {
             }
         }
     }
+    assert_eq!(studio.broken_pipelines(), Vec::<String>::new());
 }
 
 #[test]
@@ -113,7 +114,8 @@ fn relief_bends_the_normal_as_the_height_says() {
     let material = StainedMaterial { base: base_material(), extension };
     spawn_stained(&mut studio.app, stained_plate(1.2, 120, |_| [0.0, 0.0, 0.0, 1.0]), material);
     let picture = studio.shoot(Vec3::Z * 0.2, Vec3::ZERO);
-    let mut bent = 0;
+    save(&picture, "relief");
+    let (mut bent, mut wrong, mut count) = (0, 0, 0);
     for (place, footprint, pixel) in picture.places(0.2) {
         let height = |p: Vec3| {
             let s = StainSample { corrosion: 1.0, rest: p, normal: Vec3::Z, ..default() };
@@ -122,11 +124,17 @@ fn relief_bends_the_normal_as_the_height_says() {
         let step = 2e-5;
         let slope = |d: Vec3| (height(place + d * step) - height(place - d * step)) / (2.0 * step);
         let normal = Vec3::new(-slope(Vec3::X), -slope(Vec3::Y), 1.0).normalize();
-        let found = [0, 1, 2].map(|i| Color::srgb_u8(pixel[i], 0, 0).to_linear().red * 2.0 - 1.0);
+        let found = Vec3::from_array([0, 1, 2].map(|i| Color::srgb_u8(pixel[i], 0, 0).to_linear().red * 2.0 - 1.0));
         bent += usize::from(normal.z < 0.95);
-        assert!(Vec3::from_array(found).abs_diff_eq(normal, 0.12), "{place}: {found:?} instead of {normal}");
+        wrong += usize::from(!found.abs_diff_eq(normal, 0.1));
+        if wrong < 6 && !found.abs_diff_eq(normal, 0.1) {
+            println!("{place} {found} {normal}");
+        }
+        count += 1;
     }
-    assert!(bent > 500, "there is relief: {bent}");
+    println!("{bent} of {count} normals are bent, {wrong} are not those of the twin");
+    assert!(bent * 20 > count, "there is relief: {bent} of {count}");
+    assert!(wrong * 100 < count, "{wrong} of {count}");
 }
 
 #[test]
@@ -156,6 +164,7 @@ fn forward_prepass_and_deferred_draw_the_same() {
         }
         let picture = studio.shoot(Vec3::new(0.0, 0.1, 0.45), Vec3::ZERO);
         save(&picture, &format!("pass_{i}"));
+        assert_eq!(studio.broken_pipelines(), Vec::<String>::new());
         pictures.push(picture);
     }
     for (name, picture) in [("prepass", &pictures[1]), ("deferred", &pictures[2])] {

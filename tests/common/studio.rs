@@ -1,7 +1,10 @@
 //! A studio without a window: props in even light before a plain backdrop, and a camera that can be put anywhere.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use std::{path::Path, sync::Arc};
+use std::{
+    path::Path,
+    sync::{Arc, Mutex},
+};
 
 use bevy::{
     asset::AssetPlugin,
@@ -9,8 +12,8 @@ use bevy::{
     log::{Level, LogPlugin},
     prelude::*,
     render::{
-        RenderPlugin,
-        render_resource::TextureFormat,
+        Render, RenderApp, RenderPlugin, RenderSystems,
+        render_resource::{CachedPipelineState, PipelineCache, TextureFormat},
         renderer::{RenderInstance, WgpuWrapper},
         settings::{Backends, WgpuSettings},
         view::screenshot::{Screenshot, ScreenshotCaptured},
@@ -76,6 +79,19 @@ pub struct Studio {
     pub app: App,
     camera: Entity,
     canvas: Handle<Image>,
+    broken: Arc<Mutex<Vec<String>>>,
+}
+
+/// What is wrong with pipelines, as the render world last saw it.
+#[derive(Resource)]
+struct BrokenPipelines(Arc<Mutex<Vec<String>>>);
+
+fn note_broken(cache: Res<PipelineCache>, broken: Res<BrokenPipelines>) {
+    let errors = cache.pipelines().filter_map(|pipeline| match &pipeline.state {
+        CachedPipelineState::Err(error) => Some(error.to_string()),
+        _ => None,
+    });
+    *broken.0.lock().expect("unpoisoned") = errors.collect();
 }
 
 impl Studio {
@@ -93,6 +109,10 @@ impl Studio {
         app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
         app.world_mut().resource_mut::<CoatingClock>().paused = true;
         app.insert_resource(ClearColor(BACKDROP)).init_resource::<Captured>();
+        let broken = Arc::default();
+        app.sub_app_mut(RenderApp)
+            .insert_resource(BrokenPipelines(Arc::clone(&broken)))
+            .add_systems(Render, note_broken.in_set(RenderSystems::Cleanup));
         app.finish();
         app.cleanup();
         let canvas = Image::new_target_texture(width, height, TextureFormat::Rgba8UnormSrgb, None);
@@ -115,12 +135,17 @@ impl Studio {
                 Transform::from_translation(from).looking_at(Vec3::ZERO, Vec3::Y),
             ));
         }
-        Self { app, camera, canvas }
+        Self { app, camera, canvas, broken }
     }
 
     /// The camera's entity.
     pub fn camera_mut(&mut self) -> EntityWorldMut<'_> {
         self.app.world_mut().entity_mut(self.camera)
+    }
+
+    /// Errors of pipelines that could not be made: of shaders that do not compile.
+    pub fn broken_pipelines(&self) -> Vec<String> {
+        self.broken.lock().expect("unpoisoned").clone()
     }
 
     /// Takes a picture of what is at `target`, seen from `eye`.
