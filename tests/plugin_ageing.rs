@@ -5,9 +5,7 @@ mod common;
 use std::time::Duration;
 
 use bevy::{
-    app::TaskPoolOptions,
     ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel},
-    mesh::MeshPlugin,
     prelude::*,
     time::TimeUpdateStrategy,
 };
@@ -76,17 +74,10 @@ fn frames_do_not_change_a_film() {
     }
 }
 
-/// Set in the processes that [`any_number_of_threads_gives_the_same_bits`] starts: how many threads to use.
-const THREADS: &str = "COATING_TEST_THREADS";
-
 /// Ages four plates on as many threads as the environment says, and prints their digests.
 #[test]
 fn digests_for_other_processes() {
-    let Some(threads) = std::env::var(THREADS).ok().and_then(|threads| threads.parse().ok()) else { return };
-    let mut app = App::new();
-    let pools = TaskPoolPlugin { task_pool_options: TaskPoolOptions::with_num_threads(threads) };
-    app.add_plugins((MinimalPlugins.set(pools), AssetPlugin::default(), MeshPlugin, TransformPlugin));
-    app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
+    let Some(mut app) = app_of_other_process() else { return };
     let plates: Vec<Entity> = (0..4).map(|seed| spawn_plate(&mut app, 9, quick_coating().with_seed(seed))).collect();
     wait_for_films(&mut app, 4);
     take_steps(&mut app, 70);
@@ -97,19 +88,7 @@ fn digests_for_other_processes() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let digests = |threads: &str| {
-        let program = std::env::current_exe().expect("this program");
-        let mut process = std::process::Command::new(program);
-        process.args(["--exact", "digests_for_other_processes", "--nocapture"]).env(THREADS, threads);
-        let output = String::from_utf8(process.output().expect("a run").stdout).expect("text");
-        // The harness may print on the same line.
-        output.match_indices("digest ").map(|(at, _)| output[at..at + 71].to_string()).collect::<Vec<_>>()
-    };
-    let one = digests("1");
-    assert_eq!(one.len(), 4, "{one:?}");
-    assert!(one[0] != one[1]);
-    assert_eq!(digests("3"), one);
-    assert_eq!(digests("8"), one);
+    assert_same_on_any_number_of_threads("digests_for_other_processes");
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod sky;
 
 use std::time::Duration;
 
-use bevy::{app::TaskPoolOptions, mesh::MeshPlugin, prelude::*, time::TimeUpdateStrategy};
+use bevy::{prelude::*, time::TimeUpdateStrategy};
 use bevy_coating::{
     plugin::FilmPace,
     prelude::*,
@@ -173,17 +173,10 @@ fn frames_do_not_change_a_film_in_the_rain() {
     }
 }
 
-/// Set in the processes that [`any_number_of_threads_gives_the_same_bits`] starts: how many threads to use.
-const THREADS: &str = "COATING_TEST_THREADS";
-
 /// Ages four plates in the rain under a roof on as many threads as the environment says, and prints their digests.
 #[test]
 fn digests_for_other_processes() {
-    let Some(threads) = std::env::var(THREADS).ok().and_then(|threads| threads.parse().ok()) else { return };
-    let mut app = App::new();
-    let pools = TaskPoolPlugin { task_pool_options: TaskPoolOptions::with_num_threads(threads) };
-    app.add_plugins((MinimalPlugins.set(pools), AssetPlugin::default(), MeshPlugin, TransformPlugin));
-    app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
+    let Some(mut app) = app_of_other_process() else { return };
     spawn_roof(&mut app);
     let plates: Vec<Entity> = (0..4).map(|seed| spawn_lying(&mut app, 9, quick_coating().with_seed(seed))).collect();
     wait_for_films(&mut app, 4);
@@ -198,17 +191,5 @@ fn digests_for_other_processes() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let digests = |threads: &str| {
-        let program = std::env::current_exe().expect("this program");
-        let mut process = std::process::Command::new(program);
-        process.args(["--exact", "digests_for_other_processes", "--nocapture"]).env(THREADS, threads);
-        let output = String::from_utf8(process.output().expect("a run").stdout).expect("text");
-        // The harness may print on the same line.
-        output.match_indices("digest ").map(|(at, _)| output[at..at + 71].to_string()).collect::<Vec<_>>()
-    };
-    let one = digests("1");
-    assert_eq!(one.len(), 4, "{one:?}");
-    assert!(one[0] != one[1]);
-    assert_eq!(digests("3"), one);
-    assert_eq!(digests("8"), one);
+    assert_same_on_any_number_of_threads("digests_for_other_processes");
 }

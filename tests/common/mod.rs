@@ -4,6 +4,7 @@
 use std::time::Duration;
 
 use bevy::{
+    app::TaskPoolOptions,
     asset::RenderAssetUsages,
     mesh::{Indices, MeshPlugin, PrimitiveTopology},
     prelude::*,
@@ -120,4 +121,36 @@ pub fn film_state(app: &App, entity: Entity) -> FilmState {
 /// All messages of a kind that are in the app, oldest first; they are taken out.
 pub fn messages<M: Message>(app: &mut App) -> Vec<M> {
     app.world_mut().resource_mut::<Messages<M>>().drain().collect()
+}
+
+/// Set in the processes that [`digests_on`] starts: how many threads to use.
+const THREADS: &str = "COATING_TEST_THREADS";
+
+/// The app of a process that [`digests_on`] started, on as many threads as that says; `None` in any other process.
+pub fn app_of_other_process() -> Option<App> {
+    let threads = std::env::var(THREADS).ok()?.parse().ok()?;
+    let mut app = App::new();
+    let pools = TaskPoolPlugin { task_pool_options: TaskPoolOptions::with_num_threads(threads) };
+    app.add_plugins((MinimalPlugins.set(pools), AssetPlugin::default(), MeshPlugin, TransformPlugin));
+    app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
+    Some(app)
+}
+
+/// What the test `test` of this program prints after `digest ` when it runs in a process with `threads` threads.
+fn digests_on(threads: &str, test: &str) -> Vec<String> {
+    let program = std::env::current_exe().expect("this program");
+    let mut process = std::process::Command::new(program);
+    process.args(["--exact", test, "--nocapture"]).env(THREADS, threads);
+    let output = String::from_utf8(process.output().expect("a run").stdout).expect("text");
+    // The harness may print on the same line.
+    output.match_indices("digest ").map(|(at, _)| output[at..at + 71].to_string()).collect()
+}
+
+/// Asserts that the four digests that the test `test` prints are the same on 1, 3 and 8 threads.
+pub fn assert_same_on_any_number_of_threads(test: &str) {
+    let one = digests_on("1", test);
+    assert_eq!(one.len(), 4, "{one:?}");
+    assert!(one[0] != one[1]);
+    assert_eq!(digests_on("3", test), one);
+    assert_eq!(digests_on("8", test), one);
 }
