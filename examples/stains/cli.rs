@@ -22,7 +22,7 @@ pub struct Options {
     #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_preset)]
     pub preset: (String, CoatingSettings),
     /// Triangles of the film on each piece.
-    #[arg(long, default_value_t = 5000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    #[arg(long, default_value_t = 4000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
     pub triangles: u32,
 }
 
