@@ -50,7 +50,7 @@ impl Theme {
         match self {
             Self::Dust => Color::srgb(0.80, 0.76, 0.66),
             Self::Rust => Color::srgb(0.70, 0.78, 0.76),
-            Self::Moisture => Color::srgb(0.20, 0.42, 0.50),
+            Self::Moisture => Color::srgb(0.30, 0.54, 0.62),
         }
     }
 
