@@ -127,9 +127,6 @@ fn relief_bends_the_normal_as_the_height_says() {
         let found = Vec3::from_array([0, 1, 2].map(|i| Color::srgb_u8(pixel[i], 0, 0).to_linear().red * 2.0 - 1.0));
         bent += usize::from(normal.z < 0.95);
         wrong += usize::from(!found.abs_diff_eq(normal, 0.1));
-        if wrong < 6 && !found.abs_diff_eq(normal, 0.1) {
-            println!("{place} {found} {normal}");
-        }
         count += 1;
     }
     println!("{bent} of {count} normals are bent, {wrong} are not those of the twin");
@@ -149,13 +146,11 @@ fn forward_prepass_and_deferred_draw_the_same() {
         } else if i == 1 {
             studio.camera_mut().insert((DepthPrepass, NormalPrepass, MotionVectorPrepass));
         }
-        let lights = |app: &mut App| {
-            app.world_mut()
-                .query::<&mut DirectionalLight>()
-                .iter_mut(app.world_mut())
-                .for_each(|mut light| light.shadow_maps_enabled = true)
-        };
-        lights(&mut studio.app);
+        studio.app.world_mut().query::<&mut DirectionalLight>().iter_mut(studio.app.world_mut()).for_each(
+            |mut light| {
+                light.shadow_maps_enabled = true;
+            },
+        );
         for (x, part) in [(-0.11, StainPart::Film), (0.0, StainPart::Back), (0.11, StainPart::Metal)] {
             let extension = StainExtension { part, pattern: pattern(), ..default() };
             let material = StainedMaterial { base: base_material(), extension };

@@ -56,6 +56,7 @@ const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;
 const LEVELS: f32 = 4.0;
+const SUNK: f32 = 0.4;
 const FRAC_PI_4: f32 = 0.78539816;
 
 fn round_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>) -> Grain {
@@ -104,13 +105,20 @@ fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) ->
     return look;
 }
 
-fn run_off(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain, blotch: Grain) -> SurfaceLook {
+fn run_off(
+    u: StainUniform,
+    base: SurfaceLook,
+    s: StainSample,
+    streak: Grain,
+    blotch: Grain,
+    hold: f32,
+) -> SurfaceLook {
     let amount = 1.0 - exp(-3.0 * s.rust);
     let hairs = Octaves(u.streak_width * vec3<f32>(0.6, 0.25, 0.1), vec3<f32>(0.4, 0.4, 0.3));
     let hair = streak_grain(u, s, hairs, 2.5 * u.streak_stretch);
     let core = cover(streak, amount, STREAK_EDGE);
     let wash = amount * around(streak, 1.0, 0.7) * around(blotch, 1.0, 0.25);
-    let covered = clamp(mix(wash, core, 0.5) * around(hair, 1.0, 0.3), 0.0, 1.0) * u.rust_strength;
+    let covered = clamp(mix(wash, core, 0.5) * around(hair, 1.0, 0.3), 0.0, 1.0) * u.rust_strength * hold;
     let depth = amount * around(streak, 0.72, 0.42) * around(hair, 1.0, 0.2);
     let thick = smoothstep(0.3, 1.05, depth + 0.1 * around(blotch, 0.0, 1.0));
     let color = mix(u.rust_thin, u.rust_thick, thick) * around(blotch, 1.0, 0.16);
@@ -207,6 +215,7 @@ fn corroded(u: StainUniform, bright: SurfaceLook, s: StainSample, streak: Grain)
 fn stained(u: StainUniform, base: SurfaceLook, s: StainSample) -> SurfaceLook {
     var look = base;
     var porous = s.rust;
+    var hold = 1.0;
     var streak: Grain;
     if s.rust > 0.0 || s.dust > 0.0 || s.corrosion > 0.0 {
         let widths = Octaves(u.streak_width * vec3<f32>(2.5, 1.0, 0.42), vec3<f32>(0.5, 0.42, 0.26));
@@ -219,6 +228,7 @@ fn stained(u: StainUniform, base: SurfaceLook, s: StainSample) -> SurfaceLook {
 #ifdef STAIN_METAL
     look = steel(u, s);
     porous = s.corrosion;
+    hold = mix(1.0, SUNK, s.corrosion);
     if s.corrosion > 0.0 {
         look = corroded(u, look, s, streak);
     }
@@ -229,7 +239,7 @@ fn stained(u: StainUniform, base: SurfaceLook, s: StainSample) -> SurfaceLook {
     }
 #endif
     if s.rust > 0.0 {
-        look = run_off(u, look, s, streak, blotch);
+        look = run_off(u, look, s, streak, blotch, hold);
     }
     if s.dust > 0.0 {
         look = dusty(u, look, s, streak);

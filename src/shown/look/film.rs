@@ -19,7 +19,7 @@ const WATER_REFLECTANCE: f32 = 0.36;
 impl StainLook {
     /// Paint of the look `base` with the stains of `s` on it. Where there are none, `base` itself.
     pub fn film(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
-        let stained = self.run_off(base, s, p);
+        let stained = self.run_off(base, s, p, 1.0);
         let dusty = self.dusty(stained, s, p);
         self.wet(dusty, s, p, s.rust.max(s.dust))
     }
@@ -37,7 +37,8 @@ impl StainLook {
     }
 
     /// Run-off (VC 6.1): its cover follows 0.85 (1 - exp(-3 layers)), broken up into streaks.
-    pub(super) fn run_off(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern) -> SurfaceLook {
+    /// `hold` is how much of it the surface holds: 1 paint.
+    pub(super) fn run_off(&self, base: SurfaceLook, s: &StainSample, p: &StainPattern, hold: f32) -> SurfaceLook {
         if s.rust <= 0.0 {
             return base;
         }
@@ -48,7 +49,7 @@ impl StainLook {
         // Cores of streaks over a thin wash, both drawn out into hairs.
         let core = streak.cover(amount, STREAK_EDGE);
         let wash = amount * streak.around(1.0, 0.7) * blotches.around(1.0, 0.25);
-        let cover = (mix(wash, core, 0.5) * hair.around(1.0, 0.3)).clamp(0.0, 1.0) * self.rust_strength;
+        let cover = (mix(wash, core, 0.5) * hair.around(1.0, 0.3)).clamp(0.0, 1.0) * self.rust_strength * hold;
         let depth = amount * streak.around(0.72, 0.42) * hair.around(1.0, 0.2);
         let thick = smoothstep(0.3, 1.05, depth + 0.1 * blotches.around(0.0, 1.0));
         let color = self.rust_thin.lerp(self.rust_thick, thick) * blotches.around(1.0, 0.16);

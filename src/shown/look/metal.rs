@@ -10,6 +10,9 @@ use super::{
 /// Layers that thick rust consists of.
 const LEVELS: f32 = 4.0;
 
+/// How much of the run-off can be seen on rust of its own kind; the rest sinks in.
+const SUNK: f32 = 0.4;
+
 /// Patterns of metal at one place, each for another scale of its rust.
 struct Patterns {
     patches: Grain,
@@ -22,7 +25,7 @@ impl StainLook {
     /// The metal with the stains of `s`: steel, rusted as far as its corrosion says, run-off and dust on top.
     pub fn metal(&self, s: &StainSample, p: &StainPattern) -> SurfaceLook {
         let own = self.corroded(s, p);
-        let stained = self.run_off(own, s, p);
+        let stained = self.run_off(own, s, p, mix(1.0, SUNK, s.corrosion));
         let dusty = self.dusty(stained, s, p);
         self.wet(dusty, s, p, s.corrosion.max(s.dust))
     }

@@ -70,7 +70,7 @@ impl Default for StainLook {
             steel: Vec3::new(0.40, 0.39, 0.375),
             steel_metallic: 0.9,
             steel_roughness: 0.42,
-            first_rust: Vec3::new(0.030, 0.016, 0.011),
+            first_rust: Vec3::new(0.034, 0.018, 0.011),
             rust: Vec3::new(0.245, 0.066, 0.017),
             patch_size: 0.035,
             relief: 0.0005,
