@@ -52,6 +52,7 @@ struct StainSample {
 }
 
 const STREAK_EDGE: f32 = 0.26;
+const LEAST_FILTER: f32 = 0.3;
 const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;
@@ -98,7 +99,9 @@ fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32)
 fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) -> SurfaceLook {
     var look = base;
     let own = max(base.base_color, vec3<f32>(DARKEST));
-    look.base_color = own * pow(max(color, vec3<f32>(DARKEST)) / own, vec3<f32>(covered));
+    let filtered = own * pow(max(color, vec3<f32>(DARKEST)) / own, vec3<f32>(covered));
+    let grey = min(own.x, min(own.y, own.z)) / max(own.x, max(own.y, own.z));
+    look.base_color = mix(mix(base.base_color, color, covered), filtered, mix(LEAST_FILTER, 1.0, grey));
     look.metallic = base.metallic * (1.0 - covered);
     look.roughness = mix(base.roughness, u.rust_roughness, covered);
     look.reflectance = mix(base.reflectance, vec3<f32>(RUST_REFLECTANCE), covered);
@@ -139,9 +142,9 @@ fn dusty(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain) -> S
 }
 
 fn wet(u: StainUniform, base: SurfaceLook, s: StainSample, porous: f32) -> SurfaceLook {
-    let sheets = Octaves(u.dust_size * vec3<f32>(1.0, 0.4, 0.15), vec3<f32>(0.5, 0.4, 0.2));
-    let patches = streak_grain(u, s, sheets, 4.0);
-    let covered = cover(patches, s.moisture, 0.3);
+    let sizes = Octaves(u.dust_size * vec3<f32>(2.4, 0.8, 0.25), vec3<f32>(0.5, 0.4, 0.2));
+    let sheets = streak_grain(u, s, sizes, 5.0);
+    let covered = mix(s.moisture, cover(sheets, s.moisture, 0.5), 0.25);
     let darkening = min(u.wet_darkening * (1.0 + 0.5 * min(porous, 1.0)), 1.0);
     var look = base;
     look.base_color = base.base_color * (1.0 - darkening * covered);

@@ -9,6 +9,8 @@ use super::{
 
 /// Softness of the edges of streaks.
 const STREAK_EDGE: f32 = 0.26;
+/// How far rust stains as a filter on paint of the purest colour.
+const LEAST_FILTER: f32 = 0.3;
 /// Linear colour below which a channel is black.
 const DARKEST: f32 = 1e-3;
 /// Reflectance of rust: it scatters.
@@ -82,8 +84,9 @@ impl StainLook {
             return base;
         }
         let size = self.dust_size;
-        let patches = p.streak(s.rest, s.normal, [(size, 0.5), (size * 0.4, 0.4), (size * 0.15, 0.2)], 4.0);
-        let wet = patches.cover(s.moisture, 0.3);
+        // Sheets of water, without edges: nearly even where all is wet.
+        let sheets = p.streak(s.rest, s.normal, [(size * 2.4, 0.5), (size * 0.8, 0.4), (size * 0.25, 0.2)], 5.0);
+        let wet = mix(s.moisture, sheets.cover(s.moisture, 0.5), 0.25);
         let darkening = (self.wet_darkening * (1.0 + 0.5 * porous.min(1.0))).min(1.0);
         SurfaceLook {
             base_color: base.base_color * (1.0 - darkening * wet),
@@ -94,14 +97,17 @@ impl StainLook {
         }
     }
 
-    /// `cover` of the surface hidden under rust of `color`. It stains as a filter does, channel by channel: thin rust
-    /// on light paint is orange, not pink.
+    /// `cover` of the surface hidden under rust of `color`. On light and grey paint it stains as a filter does, channel
+    /// by channel: thin rust on white is orange, not pink. A filter would be green on blue paint, so the more colour
+    /// paint has, the more rust hides it.
     pub(super) fn rusted(&self, base: SurfaceLook, color: Vec3, cover: f32) -> SurfaceLook {
         let filtered =
             |base: f32, rust: f32| base.max(DARKEST) * ops::powf(rust.max(DARKEST) / base.max(DARKEST), cover);
         let (from, to) = (base.base_color, color);
+        let filter = Vec3::new(filtered(from.x, to.x), filtered(from.y, to.y), filtered(from.z, to.z));
+        let grey = from.min_element().max(DARKEST) / from.max_element().max(DARKEST);
         SurfaceLook {
-            base_color: Vec3::new(filtered(from.x, to.x), filtered(from.y, to.y), filtered(from.z, to.z)),
+            base_color: from.lerp(to, cover).lerp(filter, mix(LEAST_FILTER, 1.0, grey)),
             metallic: base.metallic * (1.0 - cover),
             roughness: mix(base.roughness, self.rust_roughness, cover),
             reflectance: mix(base.reflectance, RUST_REFLECTANCE, cover),
