@@ -66,12 +66,13 @@
 //!
 //! | feature | default | what it adds |
 //! |---|---|---|
-//! | `render` | yes | the backs of flakes and the bare metal, in `StandardMaterial`; needs `bevy_pbr` |
+//! | `render` | yes | stains in detail (`StainedMaterial`), the backs of flakes and the bare metal; needs `bevy_pbr` |
 //!
 //! # Limits
 //!
-//! - Skinned and morphed meshes, alpha-blended and custom materials are refused with an error that says so
-//!   ([`plugin::CoatingFault`]); the prop keeps its mesh. Vertex attributes other than normals, both sets of texture
+//! - Skinned and morphed meshes and alpha-blended materials are refused with an error that says so
+//!   ([`plugin::CoatingFault`]), and so are materials other than `StandardMaterial` unless [`plugin::StainDisplay`] leaves
+//!   them alone; the prop keeps its mesh. Vertex attributes other than normals, both sets of texture
 //!   coordinates, tangents and colours are not carried over.
 //! - Contact is with the metal alone, and only with the plane under each vertex: on concave or intersecting surfaces film
 //!   may still cut into metal or other film.

@@ -12,7 +12,7 @@ use crate::{
     shown::{ShownPart, look::StainPart},
 };
 
-/// Stains of each vertex of a film's meshes: layers of rust, dust, moisture, and how far the metal has rusted there
+/// Stains of each vertex of a film's meshes: layers of rust (at most one), dust, moisture, and how far the metal has rusted there
 /// ([`ShownPart::stains`]). Present while they are shown by a material.
 pub const ATTRIBUTE_STAINS: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_Stains", 0x636f_6174_7374_6169, VertexFormat::Float32x4);

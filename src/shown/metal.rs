@@ -2,6 +2,7 @@
 
 use super::{
     CornerAttributes, ShownPart,
+    part::shown_stains,
     sides::{Sides, has_separated},
     wedges::Wedges,
 };
@@ -73,7 +74,7 @@ impl Metal {
             self.originals
                 .iter()
                 .map(|v| v.index())
-                .map(|v| [layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v]]),
+                .map(|v| shown_stains(layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v])),
         );
     }
 }

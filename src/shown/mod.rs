@@ -36,6 +36,7 @@ use crate::{
 use backs::Backs;
 use metal::Metal;
 use normals::CornerFrames;
+use part::shown_stains;
 use sides::Sides;
 use wedges::Wedges;
 
@@ -194,7 +195,7 @@ impl ShownFilm {
                 let v = topology.origin(h);
                 let (film, metal) = (v.index(), topology.original(v).index());
                 let layer = &stains.film;
-                [layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal]]
+                shown_stains(layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal])
             }));
         }
     }

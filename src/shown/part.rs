@@ -18,7 +18,7 @@ pub struct ShownPart {
     pub tangents: Vec<[f32; 4]>,
     /// Linear colours.
     pub colors: Vec<[f32; 4]>,
-    /// Stains: layers of rust, dust, moisture, and how far the metal has rusted at this place.
+    /// Stains: layers of rust, at most one, dust, moisture, and how far the metal has rusted at this place.
     pub stains: Vec<[f32; 4]>,
     /// Where each vertex lies at rest: what patterns are tied to, so that they do not swim when flakes move.
     pub rest: Vec<[f32; 3]>,
@@ -26,6 +26,15 @@ pub struct ShownPart {
     pub rest_normals: Vec<[f32; 3]>,
     /// Three vertices a triangle, wound as the prop's own triangles are.
     pub indices: Vec<u32>,
+}
+
+/// Layers of rust beyond which more looks the same. Between a vertex far above it and a clean one, almost the whole edge
+/// would be covered, and stains would have the outlines of triangles.
+const MOST_LAYERS: f32 = 1.0;
+
+/// Stains of a vertex with `layers` of rust, as they are shown.
+pub(super) fn shown_stains(layers: f32, dust: f32, moisture: f32, corrosion: f32) -> [f32; 4] {
+    [layers.min(MOST_LAYERS), dust, moisture, corrosion]
 }
 
 impl ShownPart {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use bevy::{
     asset::RenderAssetUsages,
+    math::ops,
     mesh::{Indices, PrimitiveTopology},
     prelude::*,
 };
@@ -44,7 +45,7 @@ impl Picture {
     /// Places in the xy plane that the pixels of a picture show, taken from `eye` on the z axis, with the size of a
     /// pixel there.
     pub fn places(&self, eye: f32) -> impl Iterator<Item = (Vec3, f32, [u8; 4])> {
-        let size = 2.0 * (crate::studio::FIELD_OF_VIEW * 0.5).tan() * eye / self.height as f32;
+        let size = 2.0 * ops::tan(crate::studio::FIELD_OF_VIEW * 0.5) * eye / self.height as f32;
         let (width, height) = (self.width as f32, self.height as f32);
         self.pixels.iter().enumerate().map(move |(i, &pixel)| {
             let (x, y) = ((i as u32 % self.width) as f32 + 0.5, (i as u32 / self.width) as f32 + 0.5);

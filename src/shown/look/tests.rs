@@ -91,7 +91,7 @@ fn cover_follows_the_papers_mix_on_average() {
     for rust in [0.05f32, 0.2, 0.5, 1.5] {
         let s = |rest| StainSample { rust, rest, ..StainSample::default() };
         let covered = mean(plate().map(|rest| look.film(smooth, &s(rest), &pattern()))).roughness;
-        let expected = 0.85 * (1.0 - (-3.0 * rust).exp());
+        let expected = 0.85 * (1.0 - bevy_math::ops::exp(-3.0 * rust));
         assert!((covered - expected).abs() < 0.15 * expected, "{rust} layers: {covered} instead of {expected}");
     }
 }
