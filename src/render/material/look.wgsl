@@ -52,6 +52,7 @@ struct StainSample {
 }
 
 const STREAK_EDGE: f32 = 0.26;
+const LEAST_FILTER: f32 = 0.3;
 const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;
@@ -140,9 +141,9 @@ fn dusty(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain) -> S
 }
 
 fn wet(u: StainUniform, base: SurfaceLook, s: StainSample, porous: f32) -> SurfaceLook {
-    let sheets = Octaves(u.dust_size * vec3<f32>(1.0, 0.4, 0.15), vec3<f32>(0.5, 0.4, 0.2));
-    let patches = streak_grain(u, s, sheets, 4.0);
-    let covered = cover(patches, s.moisture, 0.3);
+    let sizes = Octaves(u.dust_size * vec3<f32>(2.4, 0.8, 0.25), vec3<f32>(0.5, 0.4, 0.2));
+    let sheets = streak_grain(u, s, sizes, 5.0);
+    let covered = mix(s.moisture, cover(sheets, s.moisture, 0.5), 0.25);
     let darkening = min(u.wet_darkening * (1.0 + 0.5 * min(porous, 1.0)), 1.0);
     var look = base;
     look.base_color = base.base_color * (1.0 - darkening * covered);

@@ -9,6 +9,8 @@ use super::{
 
 /// Softness of the edges of streaks.
 const STREAK_EDGE: f32 = 0.26;
+/// How far rust stains as a filter on paint of the purest colour.
+const LEAST_FILTER: f32 = 0.3;
 /// Linear colour below which a channel is black.
 const DARKEST: f32 = 1e-3;
 /// Reflectance of rust: it scatters.
@@ -82,8 +84,9 @@ impl StainLook {
             return base;
         }
         let size = self.dust_size;
-        let patches = p.streak(s.rest, s.normal, [(size, 0.5), (size * 0.4, 0.4), (size * 0.15, 0.2)], 4.0);
-        let wet = patches.cover(s.moisture, 0.3);
+        // Sheets of water, without edges: nearly even where all is wet.
+        let sheets = p.streak(s.rest, s.normal, [(size * 2.4, 0.5), (size * 0.8, 0.4), (size * 0.25, 0.2)], 5.0);
+        let wet = mix(s.moisture, sheets.cover(s.moisture, 0.5), 0.25);
         let darkening = (self.wet_darkening * (1.0 + 0.5 * porous.min(1.0))).min(1.0);
         SurfaceLook {
             base_color: base.base_color * (1.0 - darkening * wet),

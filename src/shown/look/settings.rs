@@ -27,7 +27,7 @@ pub struct StainLook {
     pub dust_dulling: f32,
     /// Size of the patches in which dust gathers: above 0, default 25 mm.
     pub dust_size: f32,
-    /// How much darker wet paint is: 0 to 1, default 0.3. Rust and dust, which soak it up, darken half as much again.
+    /// How much darker wet paint is: 0 to 1, default 0.4. Rust and dust, which soak it up, darken half as much again.
     pub wet_darkening: f32,
     /// Roughness of a wet surface: 0.089 to 1, default 0.14.
     pub wet_roughness: f32,
@@ -64,7 +64,7 @@ impl Default for StainLook {
             dust_strength: 0.75,
             dust_dulling: 0.7,
             dust_size: 0.025,
-            wet_darkening: 0.3,
+            wet_darkening: 0.4,
             wet_roughness: 0.14,
             creep: 0.9,
             steel: Vec3::new(0.40, 0.39, 0.375),
