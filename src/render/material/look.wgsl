@@ -52,7 +52,7 @@ struct StainSample {
 }
 
 const STREAK_EDGE: f32 = 0.26;
-const LEAST_FILTER: f32 = 0.3;
+const LEAST_FILTER: f32 = 0.6;
 const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;

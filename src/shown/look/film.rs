@@ -10,7 +10,7 @@ use super::{
 /// Softness of the edges of streaks.
 const STREAK_EDGE: f32 = 0.26;
 /// How far rust stains as a filter on paint of the purest colour.
-const LEAST_FILTER: f32 = 0.3;
+const LEAST_FILTER: f32 = 0.6;
 /// Linear colour below which a channel is black.
 const DARKEST: f32 = 1e-3;
 /// Reflectance of rust: it scatters.
