@@ -98,10 +98,9 @@ fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32)
 
 fn rusted(u: StainUniform, base: SurfaceLook, color: vec3<f32>, covered: f32) -> SurfaceLook {
     var look = base;
-    let own = max(base.base_color, vec3<f32>(DARKEST));
-    let filtered = own * pow(max(color, vec3<f32>(DARKEST)) / own, vec3<f32>(covered));
-    let grey = min(own.x, min(own.y, own.z)) / max(own.x, max(own.y, own.z));
-    look.base_color = mix(mix(base.base_color, color, covered), filtered, mix(LEAST_FILTER, 1.0, grey));
+    let own = base.base_color;
+    let filtered = own * pow(max(color, vec3<f32>(DARKEST)) / max(own, vec3<f32>(DARKEST)), vec3<f32>(covered));
+    look.base_color = select(filtered, mix(own, color, covered), color >= own);
     look.metallic = base.metallic * (1.0 - covered);
     look.roughness = mix(base.roughness, u.rust_roughness, covered);
     look.reflectance = mix(base.reflectance, vec3<f32>(RUST_REFLECTANCE), covered);

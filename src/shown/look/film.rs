@@ -97,17 +97,19 @@ impl StainLook {
         }
     }
 
-    /// `cover` of the surface hidden under rust of `color`. On light and grey paint it stains as a filter does, channel
-    /// by channel: thin rust on white is orange, not pink. A filter would be green on blue paint, so the more colour
-    /// paint has, the more rust hides it.
+    /// `cover` of the surface hidden under rust of `color`. Where rust is darker it stains as a filter does, channel by
+    /// channel, so that thin rust on light paint is orange, not pink; where it is lighter it lies on the paint, or rust
+    /// on blue would be green.
     pub(super) fn rusted(&self, base: SurfaceLook, color: Vec3, cover: f32) -> SurfaceLook {
-        let filtered =
-            |base: f32, rust: f32| base.max(DARKEST) * ops::powf(rust.max(DARKEST) / base.max(DARKEST), cover);
+        let stained = |base: f32, rust: f32| {
+            if rust >= base {
+                return mix(base, rust, cover);
+            }
+            base * ops::powf(rust.max(DARKEST) / base.max(DARKEST), cover)
+        };
         let (from, to) = (base.base_color, color);
-        let filter = Vec3::new(filtered(from.x, to.x), filtered(from.y, to.y), filtered(from.z, to.z));
-        let grey = from.min_element().max(DARKEST) / from.max_element().max(DARKEST);
         SurfaceLook {
-            base_color: from.lerp(to, cover).lerp(filter, mix(LEAST_FILTER, 1.0, grey)),
+            base_color: Vec3::new(stained(from.x, to.x), stained(from.y, to.y), stained(from.z, to.z)),
             metallic: base.metallic * (1.0 - cover),
             roughness: mix(base.roughness, self.rust_roughness, cover),
             reflectance: mix(base.reflectance, RUST_REFLECTANCE, cover),

@@ -84,6 +84,22 @@ fn rust_turns_paint_orange_then_brown_and_rough() {
 }
 
 #[test]
+fn thin_rust_is_orange_on_white_and_never_green_on_blue() {
+    let look = StainLook::default();
+    for (name, paint) in [("white", Vec3::splat(0.8)), ("blue", Vec3::new(0.02, 0.08, 0.4))] {
+        let base = SurfaceLook { base_color: paint, ..PAINT };
+        for rust in [0.1, 0.3, 1.0] {
+            for rest in plate() {
+                let s = StainSample { rust, rest, ..StainSample::default() };
+                let [r, g, b] = look.film(base, &s, &pattern()).base_color.to_array();
+                assert!(g <= r.max(b) + 1e-4, "{name}, {rust} layers: {r} {g} {b} is green");
+                assert!(name == "blue" || (r >= g && g >= b), "{rust} layers: {r} {g} {b} is not orange");
+            }
+        }
+    }
+}
+
+#[test]
 fn cover_follows_the_papers_mix_on_average() {
     // Roughness shows how much is covered.
     let look = StainLook { rust_roughness: 1.0, ..StainLook::default() };
