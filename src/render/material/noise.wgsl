@@ -19,56 +19,70 @@ struct Grain {
     kept: f32,
 }
 
-// A random number for three.
-fn hash(p: vec3<u32>) -> u32 {
-    var h = (p.x * 0x9e3779b1u) ^ (p.y * 0x85ebca77u) ^ (p.z * 0xc2b2ae3du);
+// A random number of three that have been multiplied and mixed.
+fn scramble(mixed: u32) -> u32 {
+    var h = mixed;
     h = (h ^ (h >> 16u)) * 0x85ebca6bu;
     h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
     return h ^ (h >> 16u);
 }
 
+// What each of three numbers is multiplied by before they are mixed.
+const MIX: vec3<u32> = vec3<u32>(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
+
 fn of_level(level: f32) -> f32 {
-    return f32(hash(vec3<u32>(u32(i32(level)), 7u, 13u)) & 1023u) / 1023.0;
+    let p = vec3<u32>(u32(i32(level)), 7u, 13u) * MIX;
+    return f32(scramble(p.x ^ p.y ^ p.z) & 1023u) / 1023.0;
 }
 
-fn gradient(p: vec3<u32>) -> vec3<f32> {
-    let h = hash(p);
+fn gradient(mixed: u32) -> vec3<f32> {
+    let h = scramble(mixed);
     return vec3<f32>(vec3<u32>(h & 1023u, (h >> 10u) & 1023u, (h >> 20u) & 1023u)) / 511.5 - 1.0;
 }
 
-// Slope and value.
+// Slope and value. Only metal has relief: elsewhere the slope is left at zero.
 fn noise(p: vec3<f32>) -> vec4<f32> {
     let cell = floor(p);
     let f = p - cell;
+    let g = f - 1.0;
     let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    let dt = 30.0 * f * f * (f * (f - 2.0) + 1.0);
-    let c = vec3<u32>(vec3<i32>(cell));
-    let g000 = gradient(c);
-    let g100 = gradient(c + vec3<u32>(1u, 0u, 0u));
-    let g010 = gradient(c + vec3<u32>(0u, 1u, 0u));
-    let g110 = gradient(c + vec3<u32>(1u, 1u, 0u));
-    let g001 = gradient(c + vec3<u32>(0u, 0u, 1u));
-    let g101 = gradient(c + vec3<u32>(1u, 0u, 1u));
-    let g011 = gradient(c + vec3<u32>(0u, 1u, 1u));
-    let g111 = gradient(c + vec3<u32>(1u, 1u, 1u));
-    let v000 = vec4<f32>(g000, dot(g000, f));
-    let v100 = vec4<f32>(g100, dot(g100, f - vec3<f32>(1.0, 0.0, 0.0)));
-    let v010 = vec4<f32>(g010, dot(g010, f - vec3<f32>(0.0, 1.0, 0.0)));
-    let v110 = vec4<f32>(g110, dot(g110, f - vec3<f32>(1.0, 1.0, 0.0)));
-    let v001 = vec4<f32>(g001, dot(g001, f - vec3<f32>(0.0, 0.0, 1.0)));
-    let v101 = vec4<f32>(g101, dot(g101, f - vec3<f32>(1.0, 0.0, 1.0)));
-    let v011 = vec4<f32>(g011, dot(g011, f - vec3<f32>(0.0, 1.0, 1.0)));
-    let v111 = vec4<f32>(g111, dot(g111, f - vec3<f32>(1.0, 1.0, 1.0)));
+    // The next cell's product is this one's plus the factor.
+    let a = vec3<u32>(vec3<i32>(cell)) * MIX;
+    let b = a + MIX;
+    let g000 = gradient(a.x ^ a.y ^ a.z);
+    let g100 = gradient(b.x ^ a.y ^ a.z);
+    let g010 = gradient(a.x ^ b.y ^ a.z);
+    let g110 = gradient(b.x ^ b.y ^ a.z);
+    let g001 = gradient(a.x ^ a.y ^ b.z);
+    let g101 = gradient(b.x ^ a.y ^ b.z);
+    let g011 = gradient(a.x ^ b.y ^ b.z);
+    let g111 = gradient(b.x ^ b.y ^ b.z);
+    let v000 = dot(g000, f);
+    let v100 = dot(g100, vec3<f32>(g.x, f.y, f.z));
+    let v010 = dot(g010, vec3<f32>(f.x, g.y, f.z));
+    let v110 = dot(g110, vec3<f32>(g.x, g.y, f.z));
+    let v001 = dot(g001, vec3<f32>(f.x, f.y, g.z));
+    let v101 = dot(g101, vec3<f32>(g.x, f.y, g.z));
+    let v011 = dot(g011, vec3<f32>(f.x, g.y, g.z));
+    let v111 = dot(g111, g);
     let x00 = mix(v000, v100, t.x);
     let x10 = mix(v010, v110, t.x);
     let x01 = mix(v001, v101, t.x);
     let x11 = mix(v011, v111, t.x);
     let y0 = mix(x00, x10, t.y);
     let y1 = mix(x01, x11, t.y);
-    let along_x = mix(mix(v100.w - v000.w, v110.w - v010.w, t.y), mix(v101.w - v001.w, v111.w - v011.w, t.y), t.z);
-    let along_y = mix(x10.w - x00.w, x11.w - x01.w, t.z);
-    let along_z = y1.w - y0.w;
-    return mix(y0, y1, t.z) + vec4<f32>(dt * vec3<f32>(along_x, along_y, along_z), 0.0);
+    let value = mix(y0, y1, t.z);
+#ifdef STAIN_METAL
+    let dt = 30.0 * f * f * (f * (f - 2.0) + 1.0);
+    let s0 = mix(mix(g000, g100, t.x), mix(g010, g110, t.x), t.y);
+    let s1 = mix(mix(g001, g101, t.x), mix(g011, g111, t.x), t.y);
+    let along_x = mix(mix(v100 - v000, v110 - v010, t.y), mix(v101 - v001, v111 - v011, t.y), t.z);
+    let along_y = mix(x10 - x00, x11 - x01, t.z);
+    let along_z = y1 - y0;
+    return vec4<f32>(mix(s0, s1, t.z) + dt * vec3<f32>(along_x, along_y, along_z), value);
+#else
+    return vec4<f32>(vec3<f32>(0.0), value);
+#endif
 }
 
 // A pattern at `p`, whose grains are `stretch` times as long along `direction`, a unit vector or zero.

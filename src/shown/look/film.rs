@@ -62,10 +62,9 @@ impl StainLook {
             return base;
         }
         let size = self.dust_size;
-        let patches = p.grain(s.rest, [(size * 1.6, 0.5), (size * 0.5, 0.4), (size * 0.08, 0.2)]);
+        let patches = p.grain(s.rest, [(size * 3.0, 0.5), (size * 0.9, 0.35), (size * 0.12, 0.2)]);
         let washed = self.streaks(s, p);
-        let lying = s.dust * patches.around(1.0, 0.45) * washed.around(1.0, 0.3);
-        let gathered = mix(lying, patches.cover(s.dust, 0.5), 0.1).clamp(0.0, 1.0);
+        let gathered = (s.dust * patches.around(1.0, 0.26) * washed.around(1.0, 0.18)).min(1.0);
         let cover = self.dust_strength * gathered;
         SurfaceLook {
             base_color: base.base_color.lerp(self.dust, cover),
