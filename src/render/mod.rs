@@ -81,4 +81,14 @@ impl Plugin for FilmDisplayPlugin {
             );
         }
     }
+
+    /// Tells when the plugin came before the renderer and so could not add its material.
+    #[cfg(feature = "render")]
+    fn finish(&self, app: &mut App) {
+        if material::can_draw(app) && !material::is_added(app) {
+            bevy::log::warn!(
+                "stains are not drawn on paint: add `CoatingWeatheringPlugin` after `DefaultPlugins` (or `PbrPlugin`)"
+            );
+        }
+    }
 }

@@ -126,9 +126,19 @@ impl MaterialExtension for StainExtension {
     }
 }
 
+/// Whether there is a renderer that knows materials.
+pub(super) fn can_draw(app: &App) -> bool {
+    app.get_sub_app(RenderApp).is_some() && app.is_plugin_added::<PbrPlugin>()
+}
+
+/// Whether [`add_material`] did.
+pub(super) fn is_added(app: &App) -> bool {
+    app.is_plugin_added::<MaterialPlugin<StainedMaterial>>()
+}
+
 /// Adds the material and its shaders, where there is something to draw with; whether there is.
 pub(super) fn add_material(app: &mut App) -> bool {
-    if app.get_sub_app(RenderApp).is_none() || !app.is_plugin_added::<PbrPlugin>() {
+    if !can_draw(app) {
         return false;
     }
     load_shader_library!(app, "noise.wgsl");
