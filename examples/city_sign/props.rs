@@ -164,6 +164,7 @@ fn coating(options: &Options, wear: Wear) -> Coating {
     let mut settings = options.preset.1.clone();
     // The sign is wet all over; it should be readable to the end.
     settings.moisture.adhesion *= 0.1;
+    settings.rust.emission *= 0.5;
     if wear == Sheltered {
         settings.adhesion.mean += 0.5;
         settings.deform.bend_limit *= 0.6;

@@ -128,7 +128,7 @@ fn run_off(
 
 fn dusty(u: StainUniform, base: SurfaceLook, s: StainSample, streak: Grain) -> SurfaceLook {
     let patches = round_grain(u, s, u.dust_size * vec3<f32>(3.0, 0.9, 0.12), vec3<f32>(0.5, 0.35, 0.2));
-    let gathered = min(s.dust * around(patches, 1.0, 0.26) * around(streak, 1.0, 0.18), 1.0);
+    let gathered = min(s.dust * around(patches, 1.0, 0.18) * around(streak, 1.0, 0.15), 1.0);
     let covered = u.dust_strength * gathered;
     var look = base;
     look.base_color = mix(base.base_color, u.dust, covered);

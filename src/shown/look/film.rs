@@ -64,7 +64,7 @@ impl StainLook {
         let size = self.dust_size;
         let patches = p.grain(s.rest, [(size * 3.0, 0.5), (size * 0.9, 0.35), (size * 0.12, 0.2)]);
         let washed = self.streaks(s, p);
-        let gathered = (s.dust * patches.around(1.0, 0.26) * washed.around(1.0, 0.18)).min(1.0);
+        let gathered = (s.dust * patches.around(1.0, 0.18) * washed.around(1.0, 0.15)).min(1.0);
         let cover = self.dust_strength * gathered;
         SurfaceLook {
             base_color: base.base_color.lerp(self.dust, cover),
