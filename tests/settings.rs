@@ -85,7 +85,7 @@ fn refused_files_say_what_and_where() {
     for (file, text, message) in [
         ("a.coating.ron", "(tearing: (beta: NaN))", "a.coating.ron:1:18: setting `tearing.beta` is NaN"),
         ("b.coating.ron", "(\n  adhesion: (octaves: 9),\n)", "b.coating.ron:2:23: setting `adhesion.octaves` is 9"),
-        ("c/d.coating.ron", "(rust: ())", "c/d.coating.ron:1:2: there is no setting `rust`"),
+        ("c/d.coating.ron", "(soot: ())", "c/d.coating.ron:1:2: there is no setting `soot`"),
     ] {
         folder.insert_asset_text(Path::new(file), text);
         let handle = load(&mut app, file);
