@@ -65,8 +65,8 @@ impl Default for CoatingBudget {
     }
 }
 
-/// Direction of gravity in the world; need not be of unit length. It decides which side of a crack's end keeps
-/// its vertex. Default: down, -y. Zero is weightlessness.
+/// Direction of gravity in the world; need not be of unit length. It decides where rust comes out of a crack and runs
+/// off, where dust settles, and which side of a crack's end keeps its vertex. Default: down, -y. Zero is weightlessness.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingGravity(pub Vec3);

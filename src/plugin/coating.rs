@@ -27,8 +27,8 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 /// the entity of the mesh. Where the film is ready, that entity has [`CoatedBy`](super::CoatedBy).
 ///
 /// The prop shows its own mesh until the film has been built in the background, and gets it back when the
-/// `Coating` is removed. `rate`, `paused`, `settings`, `shelter` and the looks may be changed at any time; changing any other
-/// field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
+/// `Coating` is removed. `rate`, `paused`, `settings`, `shelter` and the looks may be changed at any time; changing any
+/// other field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
