@@ -1,7 +1,7 @@
 //! Link between static simulation and bending: constraints follow fracture (VC 5, fig. 7).
 
 use super::FilmConstraints;
-use crate::film::{FaceId, FilmChanges, FilmMesh, VertexId};
+use crate::film::{FaceId, FilmChanges, FilmMesh, TearEnd, VertexId};
 
 /// Brings the constraints up to date with what fractured in this step.
 ///
@@ -14,19 +14,39 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
     if !changes.fractured() {
         return;
     }
-    // A duplicate's state is that of its vertex: it has separated, in this step or before.
-    constraints.inverse_masses.resize(mesh.topology.vertex_count(), 1.0);
+    let topology = &mesh.topology;
     for &v in &changes.separated {
-        constraints.inverse_masses[v.index()] = 1.0;
+        constraints.free(v);
     }
-    for &h in &changes.torn {
-        constraints.remove_bend(mesh.topology.edge(h));
-        for side in [Some(h), mesh.topology.rest_twin(h)].into_iter().flatten() {
-            constraints.ensure_length(mesh, side);
+    for end in changes.torn_ends.iter().flatten() {
+        match *end {
+            TearEnd::Opened(v) => constraints.wake(mesh, v),
+            // A duplicate's state is that of its vertex: it has separated, in this step or before.
+            TearEnd::Split { kept, .. } => {
+                constraints.wake(mesh, kept);
+                constraints.duplicate(kept);
+            }
         }
     }
+    for &h in &changes.torn {
+        constraints.remove_bend(topology, topology.edge(h));
+    }
     for &f in &changes.removed {
-        remove_face(constraints, f);
+        remove_face(mesh, constraints, f);
+    }
+    // Before any constraint is placed, all others refer to what they will be solved with.
+    for &v in &changes.duplicates {
+        for h in topology.fan(v) {
+            for side in h.face().half_edges() {
+                constraints.refresh(topology, topology.edge(side));
+                constraints.refresh(topology, side);
+            }
+        }
+    }
+    for &h in &changes.torn {
+        for side in [Some(h), topology.rest_twin(h)].into_iter().flatten() {
+            constraints.ensure_length(mesh, side);
+        }
     }
     for &v in &changes.separated {
         constrain_ring(mesh, constraints, v);
@@ -34,17 +54,17 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
     for &v in &changes.duplicates {
         // If the vertex separated in this same step, part of its ring is the duplicate's now.
         constrain_ring(mesh, constraints, v);
-        for h in mesh.topology.fan(v) {
-            for side in h.face().half_edges() {
-                constraints.refresh(mesh, mesh.topology.edge(side));
-                constraints.refresh(mesh, side);
-            }
-        }
     }
-    constraints.settle();
+    if !changes.removed.is_empty() {
+        constraints.forget_gone(topology);
+    }
+    if !(changes.torn.is_empty() && changes.removed.is_empty()) {
+        constraints.compact(topology);
+    }
 }
 
 fn constrain_ring(mesh: &FilmMesh, constraints: &mut FilmConstraints, v: VertexId) {
+    constraints.unpark_around(mesh, v);
     for h in mesh.topology.fan(v) {
         constraints.ensure_length(mesh, h);
         constraints.ensure_length(mesh, h.previous());
@@ -52,9 +72,9 @@ fn constrain_ring(mesh: &FilmMesh, constraints: &mut FilmConstraints, v: VertexI
     }
 }
 
-fn remove_face(constraints: &mut FilmConstraints, f: FaceId) {
+fn remove_face(mesh: &FilmMesh, constraints: &mut FilmConstraints, f: FaceId) {
     for h in f.half_edges() {
-        constraints.remove_length(h);
-        constraints.remove_bend(h);
+        constraints.remove_length(&mesh.topology, h);
+        constraints.remove_bend(&mesh.topology, h);
     }
 }

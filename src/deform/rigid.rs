@@ -3,19 +3,23 @@
 
 use bevy_math::{Mat3, Quat, Vec3};
 
-use super::solver::above_plane;
-use crate::film::{Geometry, LoosePieces};
+use super::{FilmConstraints, plain::above_plane};
+use crate::film::{Geometry, LoosePiece, LoosePieces};
 
-/// Notes where the vertices of the loose pieces are before a solve.
-pub fn remember(positions: &[Vec3], loose: &LoosePieces, before: &mut Vec<Vec3>) {
+/// Notes where the vertices of the loose pieces are before a solve. Pieces that sleep are passed over.
+pub fn remember(positions: &[Vec3], loose: &LoosePieces, constraints: &FilmConstraints, before: &mut Vec<Vec3>) {
     before.clear();
-    before.extend(loose.iter().flat_map(|piece| piece.vertices).map(|v| positions[v.index()]));
+    let pieces = loose.iter().filter(|piece| is_awake(piece, constraints));
+    before.extend(pieces.flat_map(|piece| piece.vertices).map(|v| positions[v.index()]));
 }
 
-/// Takes each loose piece's net translation and rotation since [`remember`] out again.
-pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, before: &[Vec3]) {
+/// Takes each loose piece's net translation and rotation since [`remember`] out again, and out of its momentum.
+pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, constraints: &mut FilmConstraints, before: &[Vec3]) {
     let mut left = before;
     for piece in loose.iter() {
+        if !is_awake(&piece, constraints) {
+            continue;
+        }
         let Some((before, rest)) = left.split_at_checked(piece.vertices.len()) else { return };
         left = rest;
         let positions = &geometry.positions;
@@ -24,12 +28,22 @@ pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, before: &[Vec3]) {
         let centre_before = before.iter().sum::<Vec3>() / count;
         let centre_now = now().sum::<Vec3>() / count;
         let turn = net_rotation(before.iter().map(|p| p - centre_before), now().map(|p| p - centre_now));
+        let back = |p: Vec3| centre_before + turn * (p - centre_now);
         for &v in piece.vertices {
+            if constraints.is_asleep(v) {
+                continue;
+            }
             let i = v.index();
-            let p = centre_before + turn * (geometry.positions[i] - centre_now);
-            geometry.positions[i] = above_plane(p, geometry.rest_positions[i], geometry.rest_normals[i]);
+            let p = above_plane(back(geometry.positions[i]), geometry.rest_positions[i], geometry.rest_normals[i]);
+            geometry.positions[i] = p;
+            constraints.points.put(i, p, back(constraints.points.position_before(i)));
         }
     }
+}
+
+/// Whether any vertex of a piece moves.
+fn is_awake(piece: &LoosePiece, constraints: &FilmConstraints) -> bool {
+    piece.vertices.iter().any(|&v| !constraints.is_asleep(v))
 }
 
 /// The rotation that takes the net turn from `before` to `now` (both about their centres) out again: the

@@ -59,6 +59,12 @@ pub enum InvariantError {
         /// Wet, stained and dripped.
         found: f64,
     },
+    /// The solver has a vertex in another place than the film.
+    #[error("vertex {0:?} is elsewhere in the solver")]
+    PointElsewhere(VertexId),
+    /// Two constraints of a pack share a vertex.
+    #[error("two constraints of a pack share vertex {0:?}")]
+    SharedPoint(VertexId),
     /// A constraint is missing, doubled or refers to the wrong vertices.
     #[error("constraint of half-edge {0:?} is wrong")]
     Constraint(HalfEdgeId),

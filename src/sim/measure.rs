@@ -188,7 +188,7 @@ impl Sums {
 
     fn add_deformation(&mut self, film: &FilmState) {
         let geometry = &film.mesh.geometry;
-        for c in &film.constraints.lengths {
+        for c in film.constraints.lengths(&film.mesh) {
             let [a, b] = c.ends.map(|v| geometry.positions[v as usize]);
             let strain = f64::from((a.distance(b) - c.rest).abs() / c.rest);
             self.strain_squares += strain * strain;

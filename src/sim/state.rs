@@ -4,7 +4,7 @@ use bevy_math::Vec3;
 
 use super::{FilmClock, Stage, StageTimes};
 use crate::{
-    deform::{self, BendScratch, FilmConstraints},
+    deform::{self, BendScratch, FilmConstraints, SolvePace, SolverQuality},
     film::{FilmChanges, FilmMesh, InvariantError, PieceScratch, VertexId, build::BuiltFilm},
     fracture::{self, FilmForces, TearScratch},
     settings::CoatingSettings,
@@ -40,6 +40,8 @@ pub struct FilmState {
     pub stains: StainFields,
     /// Step counter.
     pub clock: FilmClock,
+    /// How bending is solved.
+    pub quality: SolverQuality,
     /// What the last step changed.
     pub changes: FilmChanges,
     /// Buffers.
@@ -51,7 +53,7 @@ pub struct FilmState {
 pub mod stage {
     use super::{
         BendScratch, CoatingSettings, Environment, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh,
-        PieceScratch, StainFields, TearScratch, Vec3, deform, fracture, stain,
+        PieceScratch, SolvePace, SolverQuality, StainFields, TearScratch, Vec3, deform, fracture, stain,
     };
 
     /// Begins a step: forgets the last one's changes and counts.
@@ -120,10 +122,11 @@ pub mod stage {
         clock: &FilmClock,
         changes: &mut FilmChanges,
         settings: &CoatingSettings,
+        quality: SolverQuality,
         scratch: &mut BendScratch,
     ) {
-        let sweeps = deform::sweeps_of_step(settings.deform.sweeps_per_age, clock.steps, clock.steps_per_age);
-        let pace = (clock.dt(), sweeps);
+        let step = (clock.steps, clock.steps_per_age);
+        let pace = SolvePace::of_step(settings.deform.sweeps_per_age, quality, step, clock.tick().is_some());
         deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, scratch);
     }
 
@@ -196,7 +199,7 @@ impl FilmState {
 
     /// Takes one step and adds the time spent in each stage to `times`.
     pub fn step_timed(&mut self, settings: &CoatingSettings, environment: &Environment, times: &mut StageTimes) {
-        let Self { mesh, forces, constraints, stains, clock, changes, scratch } = self;
+        let Self { mesh, forces, constraints, stains, clock, quality, changes, scratch } = self;
         stage::begin(clock, changes);
         times.measure(Stage::Fracture, || {
             stage::forces(mesh, forces, stains, clock, settings);
@@ -206,7 +209,7 @@ impl FilmState {
             stage::link(mesh, constraints, changes);
         });
         times.measure(Stage::Deformation, || {
-            stage::bend(mesh, constraints, forces, clock, changes, settings, &mut scratch.bend);
+            stage::bend(mesh, constraints, forces, clock, changes, settings, *quality, &mut scratch.bend);
         });
         times.measure(Stage::Stains, || {
             stage::rust(mesh, stains, clock, changes, settings, environment);

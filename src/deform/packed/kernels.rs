@@ -1,0 +1,265 @@
+//! The kernels, written once for any [`Lanes`].
+//!
+//! # Safety
+//! All functions need the instruction set of their lanes, and indices within the points.
+
+use super::{
+    lanes::Lanes,
+    pack::{BendPack, BendTargets, LANES, LengthPack},
+    points::Point,
+};
+
+/// Three components.
+#[derive(Clone, Copy)]
+struct Vec3<L>(L, L, L);
+
+impl<L: Lanes> Vec3<L> {
+    #[inline(always)]
+    unsafe fn sub(self, o: Self) -> Self {
+        unsafe { Self(self.0.sub(o.0), self.1.sub(o.1), self.2.sub(o.2)) }
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, o: Self) -> Self {
+        unsafe { Self(self.0.add(o.0), self.1.add(o.1), self.2.add(o.2)) }
+    }
+
+    #[inline(always)]
+    unsafe fn scale(self, s: L) -> Self {
+        unsafe { Self(self.0.mul(s), self.1.mul(s), self.2.mul(s)) }
+    }
+
+    #[inline(always)]
+    unsafe fn dot(self, o: Self) -> L {
+        unsafe { self.0.mul(o.0).add(self.1.mul(o.1)).add(self.2.mul(o.2)) }
+    }
+
+    #[inline(always)]
+    unsafe fn cross(self, o: Self) -> Self {
+        unsafe {
+            Self(
+                self.1.mul(o.2).sub(self.2.mul(o.1)),
+                self.2.mul(o.0).sub(self.0.mul(o.2)),
+                self.0.mul(o.1).sub(self.1.mul(o.0)),
+            )
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn split<L: Lanes>([x, y, z, w]: [L; 4]) -> (Vec3<L>, L) {
+    (Vec3(x, y, z), w)
+}
+
+#[inline(always)]
+unsafe fn join<L: Lanes>(v: Vec3<L>, w: L) -> [L; 4] {
+    [v.0, v.1, v.2, w]
+}
+
+/// Below this, the square of the sum of the unit normals leaves no neutral direction: a fully folded pair.
+const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
+
+/// Every bend constraint in turn (VC 4.3, appendix), in the form with 4 square roots.
+///
+/// With `e = p1 - p2`, `v` the middle of the edge, `a_i = v - p_i` the medians of the wings (i = 3, 4),
+/// `c3 = e x a3` and `c4 = a4 x e` the normals, `n_i` their lengths, `m = n4 c3 + n3 c4` along the neutral direction,
+/// `M = m.m`, `y_i = sqrt(a_i.a_i M)`, `z_i = n_i (a3.c4)`: the cosine of the wing's angle to the neutral direction is
+/// `-z_i / y_i`, that of the target is `k_i = skew cos(phi0 / 2)`, and `q_i = a_i - (y_i / M) m` is the direction of
+/// the printed correction. Its strain `1 - sqrt(1 + k_i) sqrt(y_i / (y_i - z_i))` is replaced by the rational
+/// `-(z_i + k_i y_i) / ((2 + k_i) y_i - z_i)`, which has the same zero and the same slope there and stays bounded.
+/// Corrections are shared as in [`bend_corrections`](crate::deform::bend::bend_corrections).
+#[inline(always)]
+pub(super) unsafe fn sweep_bends<L: Lanes>(points: *mut Point, packs: &[BendPack]) {
+    for pack in packs {
+        for at in (0..LANES).step_by(L::WIDTH) {
+            // SAFETY: `at` is within the pack and the rest is the caller's.
+            unsafe { bend::<L>(points, pack, at) };
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
+    unsafe {
+        let places: [*const u32; 4] = [0, 1, 2, 3].map(|i| pack.points[i].as_ptr().add(at));
+        let (p1, w1) = split(L::gather(points, places[0]));
+        let (p2, w2) = split(L::gather(points, places[1]));
+        let (p3, w3) = split(L::gather(points, places[2]));
+        let (p4, w4) = split(L::gather(points, places[3]));
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let edge = p1.sub(p2);
+        let middle = p1.add(p2).scale(L::splat(0.5));
+        let (a3, a4) = (middle.sub(p3), middle.sub(p4));
+        let (c3, c4) = (edge.cross(a3), a4.cross(edge));
+        let (areas3, areas4) = (c3.dot(c3), c4.dot(c4));
+        let (n3, n4) = (areas3.sqrt(), areas4.sqrt());
+        let m = c3.scale(n4).add(c4.scale(n3));
+        let (mm, d) = (m.dot(m), a3.dot(c4));
+        let total = w1.add(w2).add(w3).add(w4);
+        // A face without area has no normal, a fully folded pair no neutral direction. Comparisons with NaN fail too.
+        let areas = areas3.mul(areas4);
+        let valid = L::and(mm.gt(areas.mul(L::splat(MIN_NEUTRAL_SQUARED))), L::and(areas.gt(zero), total.gt(zero)));
+        let reciprocal = one.div(mm).keep(valid);
+        let shared = Pair { m, mm, d, reciprocal, valid };
+        let b3 = shared.wing(a3, n3, pack.folds[0].as_ptr().add(at), pack.medians[0].as_ptr().add(at));
+        let b4 = shared.wing(a4, n4, pack.folds[1].as_ptr().add(at), pack.medians[1].as_ptr().add(at));
+        let (without3, without4) = (total.sub(w3), total.sub(w4));
+        let both = without3.add(without4);
+        let share = one.div(total.mul(both)).keep(valid);
+        let whole = both.mul(share);
+        let edge_part = b3.scale(without3).add(b4.scale(without4)).scale(share);
+        L::scatter(points, places[0], join(p1.add(edge_part.scale(w1)), w1));
+        L::scatter(points, places[1], join(p2.add(edge_part.scale(w2)), w2));
+        L::scatter(points, places[2], join(p3.sub(b3.scale(w3.mul(whole))), w3));
+        L::scatter(points, places[3], join(p4.sub(b4.scale(w4.mul(whole))), w4));
+    }
+}
+
+/// What the wings of a pair share; see [`sweep_bends`].
+#[derive(Clone, Copy)]
+struct Pair<L: Lanes> {
+    m: Vec3<L>,
+    mm: L,
+    d: L,
+    reciprocal: L,
+    valid: L::Mask,
+}
+
+impl<L: Lanes> Pair<L> {
+    /// `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be inlined, and then
+    /// every instruction would be a call.)
+    #[inline(always)]
+    unsafe fn wing(self, a: Vec3<L>, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
+        unsafe {
+            let (fold, rest, one, two) = (L::load(fold), L::load(rest), L::splat(1.0), L::splat(2.0));
+            let median = a.dot(a);
+            let (y, z) = (median.mul(self.mm).sqrt(), n.mul(self.d));
+            let q = a.sub(self.m.scale(y.mul(self.reciprocal)));
+            let over = z.add(fold.mul(y));
+            let under = two.add(fold).mul(y).sub(z);
+            // A stretched wing corrects less, by the square of rest over current median: otherwise corrections grow
+            // with the stretch they cause.
+            let stretched = median.gt(rest);
+            let over = over.mul(L::select(stretched, rest, one));
+            let under = under.mul(L::select(stretched, median, one));
+            let strain = over.div(under).keep(L::and(self.valid, under.gt(L::splat(0.0))));
+            q.scale(strain)
+        }
+    }
+}
+
+/// Every length constraint in turn (VC 4.2).
+#[inline(always)]
+pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[LengthPack]) {
+    for pack in packs {
+        for at in (0..LANES).step_by(L::WIDTH) {
+            // SAFETY: `at` is within the pack and the rest is the caller's.
+            unsafe { length::<L>(points, pack, at) };
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
+    unsafe {
+        let places = [pack.points[0].as_ptr().add(at), pack.points[1].as_ptr().add(at)];
+        let (p1, w1) = split(L::gather(points, places[0]));
+        let (p2, w2) = split(L::gather(points, places[1]));
+        let rest = L::load(pack.rest.as_ptr().add(at));
+        let difference = p1.sub(p2);
+        let length = difference.dot(difference).sqrt();
+        let under = w1.add(w2).mul(length);
+        let valid = under.gt(L::splat(0.0));
+        let correction = difference.scale(length.sub(rest).div(under).keep(valid));
+        L::scatter(points, places[0], join(p1.sub(correction.scale(w1)), w1));
+        L::scatter(points, places[1], join(p2.add(correction.scale(w2)), w2));
+    }
+}
+
+/// Takes out what puts a point below its plane (VC 5).
+#[inline(always)]
+unsafe fn above<L: Lanes>(p: Vec3<L>, normal: Vec3<L>, distance: L) -> Vec3<L> {
+    unsafe {
+        let height = normal.dot(p).sub(distance);
+        let below = L::splat(0.0).gt(height);
+        p.sub(normal.scale(height.keep(below)))
+    }
+}
+
+/// Half-space of the points at `indices`.
+#[inline(always)]
+pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, indices: &[u32]) {
+    for group in indices.chunks_exact(L::WIDTH) {
+        // SAFETY: the caller's.
+        unsafe {
+            let (p, w) = split(L::gather(points, group.as_ptr()));
+            let (normal, distance) = split(L::gather(planes, group.as_ptr()));
+            L::scatter(points, group.as_ptr(), join(above(p, normal, distance), w));
+        }
+    }
+}
+
+/// Heavy-ball momentum: the points at `indices` go on by `keep` of what they moved since `before`, which becomes where
+/// they are now; then the half-space.
+#[inline(always)]
+pub(super) unsafe fn advance<L: Lanes>(
+    points: *mut Point,
+    before: *mut Point,
+    planes: *const Point,
+    indices: &[u32],
+    keep: f32,
+) {
+    for group in indices.chunks_exact(L::WIDTH) {
+        // SAFETY: the caller's.
+        unsafe {
+            let (p, w) = split(L::gather(points, group.as_ptr()));
+            let (last, unused) = split(L::gather(before, group.as_ptr()));
+            let (normal, distance) = split(L::gather(planes, group.as_ptr()));
+            let next = p.add(p.sub(last).scale(L::splat(keep)));
+            L::scatter(before, group.as_ptr(), join(p, unused));
+            L::scatter(points, group.as_ptr(), join(above(next, normal, distance), w));
+        }
+    }
+}
+
+/// Narrows the targets of a pack by `step`, down to `limit` below where they began, and renews its folds. Gives
+/// whether any may still narrow.
+#[inline(always)]
+pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTargets, step: f32, limit: f32) -> bool {
+    let mut ends = [0.0; LANES];
+    for at in (0..LANES).step_by(L::WIDTH) {
+        // SAFETY: `at` is within the pack and the rest is the caller's.
+        unsafe {
+            let end = L::load(angles.starts.as_ptr().add(at)).sub(L::splat(limit));
+            let target = L::load(angles.targets.as_ptr().add(at));
+            let next = target.sub(L::splat(step));
+            let next = L::select(next.gt(end), next, end);
+            let target = L::select(target.gt(end), next, target);
+            target.store(angles.targets.as_mut_ptr().add(at));
+            target.sub(end).store(ends.as_mut_ptr().add(at));
+            let cosine = cosine_of_half(target);
+            for i in 0..2 {
+                let skew = L::load(angles.skews[i].as_ptr().add(at));
+                skew.mul(cosine).store(pack.folds[i].as_mut_ptr().add(at));
+            }
+        }
+    }
+    ends.iter().any(|&left| left > 0.0)
+}
+
+/// `cos(angle / 2)` for angles in -2 pi to 2 pi, to a few units of the last place of 1: `1 - 2 sin^2(angle / 4)` with
+/// the sine's series up to the 11th power.
+#[inline(always)]
+unsafe fn cosine_of_half<L: Lanes>(angle: L) -> L {
+    unsafe {
+        let x = angle.mul(L::splat(0.25));
+        let squared = x.mul(x);
+        let terms = [1.0 / 362_880.0, -1.0 / 5_040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0];
+        let mut sum = L::splat(-1.0 / 39_916_800.0);
+        for term in terms {
+            sum = sum.mul(squared).add(L::splat(term));
+        }
+        let sine = sum.mul(x);
+        L::splat(1.0).sub(sine.mul(sine).mul(L::splat(2.0)))
+    }
+}

@@ -1,0 +1,115 @@
+//! Eight floats: AVX2.
+
+use core::arch::x86_64::*;
+
+use super::{Lanes, Point};
+
+#[derive(Clone, Copy)]
+pub(in super::super) struct Avx2(__m256);
+
+impl Lanes for Avx2 {
+    const WIDTH: usize = 8;
+
+    type Mask = __m256;
+
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self {
+        // SAFETY: the caller's, here and below.
+        Self(unsafe { _mm256_set1_ps(x) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        Self(unsafe { _mm256_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        unsafe { _mm256_storeu_ps(to, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        Self(unsafe { _mm256_add_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn mul(self, other: Self) -> Self {
+        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn div(self, other: Self) -> Self {
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn sqrt(self) -> Self {
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn gt(self, other: Self) -> __m256 {
+        unsafe { _mm256_cmp_ps::<_CMP_GT_OQ>(self.0, other.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn and(a: __m256, b: __m256) -> __m256 {
+        unsafe { _mm256_and_ps(a, b) }
+    }
+
+    #[inline(always)]
+    unsafe fn select(mask: __m256, yes: Self, no: Self) -> Self {
+        // Masks come from comparisons: all bits of a lane are alike.
+        Self(unsafe { _mm256_blendv_ps(no.0, yes.0, mask) })
+    }
+
+    #[inline(always)]
+    unsafe fn keep(self, mask: __m256) -> Self {
+        Self(unsafe { _mm256_and_ps(mask, self.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+        unsafe {
+            let half = |i| _mm_loadu_ps(points.add(*indices.add(i) as usize).cast());
+            // Each row holds points i and i + 4, so that lanes end up in the order of the indices.
+            let row = |i| _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(half(i)), half(i + 4));
+            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+            let (xy, zw) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+            let (xy_2, zw_2) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+            [low(xy, xy_2), high(xy, xy_2), low(zw, zw_2), high(zw, zw_2)].map(Self)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn scatter(points: *mut Point, indices: *const u32, [x, y, z, w]: [Self; 4]) {
+        unsafe {
+            let (xy, xy_2) = (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
+            let (zw, zw_2) = (_mm256_unpacklo_ps(z.0, w.0), _mm256_unpackhi_ps(z.0, w.0));
+            let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
+            for (i, row) in rows.into_iter().enumerate() {
+                let place = |i| points.add(*indices.add(i) as usize).cast();
+                _mm_storeu_ps(place(i), _mm256_castps256_ps128(row));
+                _mm_storeu_ps(place(i + 4), _mm256_extractf128_ps::<1>(row));
+            }
+        }
+    }
+}
+
+/// The lower two floats of each 128 bits of `a`, then those of `b`.
+#[inline(always)]
+unsafe fn low(a: __m256, b: __m256) -> __m256 {
+    unsafe { _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }
+}
+
+/// The upper two.
+#[inline(always)]
+unsafe fn high(a: __m256, b: __m256) -> __m256 {
+    unsafe { _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }
+}

@@ -1,0 +1,121 @@
+//! Sixteen floats: AVX-512F.
+
+use core::arch::x86_64::*;
+
+use super::{Lanes, Point};
+
+#[derive(Clone, Copy)]
+pub(in super::super) struct Avx512(__m512);
+
+impl Lanes for Avx512 {
+    const WIDTH: usize = 16;
+
+    type Mask = __mmask16;
+
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self {
+        // SAFETY: the caller's, here and below.
+        Self(unsafe { _mm512_set1_ps(x) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        Self(unsafe { _mm512_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        unsafe { _mm512_storeu_ps(to, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        Self(unsafe { _mm512_add_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        Self(unsafe { _mm512_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn mul(self, other: Self) -> Self {
+        Self(unsafe { _mm512_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn div(self, other: Self) -> Self {
+        Self(unsafe { _mm512_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn sqrt(self) -> Self {
+        Self(unsafe { _mm512_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn gt(self, other: Self) -> __mmask16 {
+        unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(self.0, other.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn and(a: __mmask16, b: __mmask16) -> __mmask16 {
+        a & b
+    }
+
+    #[inline(always)]
+    unsafe fn select(mask: __mmask16, yes: Self, no: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_ps(mask, no.0, yes.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn keep(self, mask: __mmask16) -> Self {
+        Self(unsafe { _mm512_maskz_mov_ps(mask, self.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+        unsafe {
+            let quarter = |i| _mm_loadu_ps(points.add(*indices.add(i) as usize).cast());
+            // Each row holds points i, i + 4, i + 8 and i + 12, so that lanes end up in the order of the indices.
+            let row = |i| {
+                let row = _mm512_castps128_ps512(quarter(i));
+                let row = _mm512_insertf32x4::<1>(row, quarter(i + 4));
+                let row = _mm512_insertf32x4::<2>(row, quarter(i + 8));
+                _mm512_insertf32x4::<3>(row, quarter(i + 12))
+            };
+            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+            let (xy, zw) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+            let (xy_2, zw_2) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+            [low(xy, xy_2), high(xy, xy_2), low(zw, zw_2), high(zw, zw_2)].map(Self)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn scatter(points: *mut Point, indices: *const u32, [x, y, z, w]: [Self; 4]) {
+        unsafe {
+            let (xy, xy_2) = (_mm512_unpacklo_ps(x.0, y.0), _mm512_unpackhi_ps(x.0, y.0));
+            let (zw, zw_2) = (_mm512_unpacklo_ps(z.0, w.0), _mm512_unpackhi_ps(z.0, w.0));
+            let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
+            for (i, row) in rows.into_iter().enumerate() {
+                let place = |i| points.add(*indices.add(i) as usize).cast();
+                _mm_storeu_ps(place(i), _mm512_castps512_ps128(row));
+                _mm_storeu_ps(place(i + 4), _mm512_extractf32x4_ps::<1>(row));
+                _mm_storeu_ps(place(i + 8), _mm512_extractf32x4_ps::<2>(row));
+                _mm_storeu_ps(place(i + 12), _mm512_extractf32x4_ps::<3>(row));
+            }
+        }
+    }
+}
+
+/// The lower two floats of each 128 bits of `a`, then those of `b`.
+#[inline(always)]
+unsafe fn low(a: __m512, b: __m512) -> __m512 {
+    unsafe { _mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b))) }
+}
+
+/// The upper two.
+#[inline(always)]
+unsafe fn high(a: __m512, b: __m512) -> __m512 {
+    unsafe { _mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(a), _mm512_castps_pd(b))) }
+}

@@ -1,0 +1,86 @@
+//! One float at a time: the twin that runs everywhere.
+
+use super::{Lanes, Point};
+
+#[derive(Clone, Copy)]
+pub(in super::super) struct Scalar(f32);
+
+impl Lanes for Scalar {
+    const WIDTH: usize = 1;
+
+    type Mask = bool;
+
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self {
+        Self(x)
+    }
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: the caller's.
+        Self(unsafe { from.read_unaligned() })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        // SAFETY: the caller's.
+        unsafe { to.write_unaligned(self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+
+    #[inline(always)]
+    unsafe fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+
+    #[inline(always)]
+    unsafe fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+
+    #[inline(always)]
+    unsafe fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0)
+    }
+
+    #[inline(always)]
+    unsafe fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    unsafe fn gt(self, other: Self) -> bool {
+        self.0 > other.0
+    }
+
+    #[inline(always)]
+    unsafe fn and(a: bool, b: bool) -> bool {
+        a & b
+    }
+
+    #[inline(always)]
+    unsafe fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    unsafe fn keep(self, mask: bool) -> Self {
+        if mask { self } else { Self(0.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+        // SAFETY: the caller's.
+        unsafe { (*points.add(*indices as usize)).0.map(Self) }
+    }
+
+    #[inline(always)]
+    unsafe fn scatter(points: *mut Point, indices: *const u32, components: [Self; 4]) {
+        // SAFETY: the caller's.
+        unsafe { (*points.add(*indices as usize)).0 = components.map(|c| c.0) }
+    }
+}

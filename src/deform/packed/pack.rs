@@ -1,0 +1,59 @@
+//! Packs: constraints that share no point, side by side, to be solved at once.
+//!
+//! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused lanes
+//! refer to the null point, which nothing moves.
+
+/// Constraints in a pack.
+pub const LANES: usize = 32;
+
+/// One value a lane.
+pub(super) type Lane<T> = [T; LANES];
+
+/// Bend constraints as the sweeps read them.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct BendPack {
+    /// Ends of the edge and tips of the two wings: p1, p2, p3, p4.
+    pub points: [Lane<u32>; 4],
+    /// `skew cos(phi0 / 2)` of each wing: the cosine at which it rests.
+    pub folds: [Lane<f32>; 2],
+    /// Square of each wing's median at rest.
+    pub medians: [Lane<f32>; 2],
+}
+
+/// What the folds of a [`BendPack`] are made of.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct BendTargets {
+    /// Rest altitude over rest median of each wing, in 0..=1.
+    pub skews: [Lane<f32>; 2],
+    /// Angle at which each constraint began, in radians.
+    pub starts: Lane<f32>,
+    /// Target angle phi0 now, in radians.
+    pub targets: Lane<f32>,
+}
+
+/// Length constraints as the sweeps read them.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct LengthPack {
+    /// The two ends.
+    pub points: [Lane<u32>; 2],
+    /// Rest length.
+    pub rest: Lane<f32>,
+}
+
+impl BendPack {
+    /// A pack of null constraints.
+    pub const NULL: Self = Self { points: [[0; LANES]; 4], folds: [[0.0; LANES]; 2], medians: [[0.0; LANES]; 2] };
+}
+
+impl BendTargets {
+    /// A pack of null constraints.
+    pub const NULL: Self = Self { skews: [[0.0; LANES]; 2], starts: [0.0; LANES], targets: [0.0; LANES] };
+}
+
+impl LengthPack {
+    /// A pack of null constraints.
+    pub const NULL: Self = Self { points: [[0; LANES]; 2], rest: [0.0; LANES] };
+}

@@ -1,0 +1,129 @@
+//! Sleep: vertices that would move too little to be seen are not looked at.
+//!
+//! Looked at once a tick. A vertex is quiet in a tick in which it moved less than [`QUIET`] of a mean edge, so that what a
+//! sleeping vertex misses in a whole unit of age is too little to be seen. It falls asleep once it and all vertices that share
+//! a constraint with it have been quiet for [`TICKS`] ticks and no target there narrows any more. It wakes when one of these vertices moves
+//! more than that, or anything fractures beside it.
+
+use bevy_math::Vec3;
+
+use super::{
+    FilmConstraints,
+    packed::{Motion, Points},
+};
+use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
+
+/// How far a quiet vertex moves in a tick at most, in mean edges.
+pub(super) const QUIET: f32 = 1e-4;
+/// Ticks that a vertex must have been quiet.
+const TICKS: u8 = 2;
+
+/// Where vertices were at the last tick, and for how many ticks they have been quiet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct RestMarks {
+    places: Vec<Vec3>,
+    quiet: Vec<u8>,
+    /// Half-edges to be parked.
+    stale: Vec<HalfEdgeId>,
+    /// Vertices to be woken.
+    disturbed: Vec<VertexId>,
+}
+
+impl RestMarks {
+    pub fn new(vertices: usize) -> Self {
+        Self { places: vec![Vec3::ZERO; vertices], quiet: vec![0; vertices], ..Self::default() }
+    }
+
+    /// A copy of `kept` was appended.
+    pub fn append(&mut self, kept: usize) {
+        self.places.push(self.places[kept]);
+        self.quiet.push(0);
+    }
+
+    /// `v` has begun to move from where it is.
+    pub fn mark(&mut self, v: usize, points: &Points) {
+        self.places[v] = points.position(v);
+        self.quiet[v] = 0;
+    }
+
+    fn is_quiet(&self, v: VertexId) -> bool {
+        self.quiet[v.index()] >= TICKS
+    }
+}
+
+impl FilmConstraints {
+    /// A tick: puts to sleep what has come to rest, and wakes what is disturbed. `limit` is that of the targets, in radians.
+    pub(super) fn doze(&mut self, mesh: &FilmMesh, limit: f32) {
+        let topology = &mesh.topology;
+        let mut rest = std::mem::take(&mut self.rest);
+        let least = QUIET * mesh.geometry.mean_edge;
+        rest.disturbed.clear();
+        for v in self.points.awake() {
+            let place = self.points.position(v);
+            let quiet = place.distance_squared(rest.places[v]) < least * least;
+            rest.places[v] = place;
+            rest.quiet[v] = if quiet { rest.quiet[v].saturating_add(1) } else { 0 };
+            if !quiet {
+                for_neighbours(topology, VertexId::new(v), |n| {
+                    if self.points.motion(n.index()) == Motion::Asleep {
+                        rest.disturbed.push(n);
+                    }
+                });
+            }
+        }
+        self.rest = rest;
+        let disturbed = std::mem::take(&mut self.rest.disturbed);
+        for &v in &disturbed {
+            self.wake(mesh, v);
+        }
+        self.rest.disturbed = disturbed;
+        let mut points = std::mem::take(&mut self.points);
+        let mut stale = std::mem::take(&mut self.rest.stale);
+        stale.clear();
+        points.settle(|points, v| {
+            let id = VertexId::new(v);
+            if !self.rest.is_quiet(id) || !self.may_sleep(topology, points, id, limit) {
+                return Motion::Awake;
+            }
+            for h in topology.fan(id) {
+                let edges = [h, h.next(), h.previous()];
+                stale.extend(edges);
+                stale.extend(edges.into_iter().filter_map(|h| topology.bound_twin(h)));
+            }
+            Motion::Asleep
+        });
+        self.points = points;
+        for &h in &stale {
+            self.park(topology, h);
+        }
+        self.rest.stale = stale;
+        self.compact(topology);
+    }
+
+    fn may_sleep(&self, topology: &Topology, points: &Points, v: VertexId, limit: f32) -> bool {
+        let mut still = true;
+        for_neighbours(topology, v, |n| {
+            still &= points.motion(n.index()) != Motion::Awake || self.rest.is_quiet(n);
+        });
+        still
+            && topology.fan(v).all(|h| {
+                [h, h.next(), h.previous()].into_iter().all(|h| !self.is_narrowing(topology, topology.edge(h), limit))
+            })
+    }
+
+    /// Takes vertices without faces off the list of those that move.
+    pub(super) fn forget_gone(&mut self, topology: &Topology) {
+        self.points.settle(|_, v| if topology.has_faces(VertexId::new(v)) { Motion::Awake } else { Motion::Gone });
+    }
+}
+
+/// Calls `with` for the vertices that share a constraint with `v`.
+fn for_neighbours(topology: &Topology, v: VertexId, mut with: impl FnMut(VertexId)) {
+    for h in topology.fan(v) {
+        with(topology.target(h));
+        with(topology.apex(h));
+        if let Some(twin) = topology.bound_twin(h.next()) {
+            with(topology.apex(twin));
+        }
+    }
+}
