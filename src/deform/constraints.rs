@@ -80,9 +80,28 @@ impl FilmConstraints {
 
     /// Number of length and of bend constraints that sweeps visit: those at a vertex that is awake.
     pub fn active_counts(&self) -> [usize; 2] {
-        self.regions.iter().map(|region| region.counts()).fold([0; 2], |sum, [bends, lengths]| {
-            [sum[0] + lengths, sum[1] + bends]
-        })
+        self.regions
+            .iter()
+            .map(|region| region.counts())
+            .fold([0; 2], |sum, [bends, lengths]| [sum[0] + lengths, sum[1] + bends])
+    }
+
+    /// Number of packs of length and of bend constraints, of 32 lanes each.
+    pub fn pack_counts(&self) -> [usize; 2] {
+        self.regions
+            .iter()
+            .map(|region| region.packs())
+            .fold([0; 2], |sum, [bends, lengths]| [sum[0] + lengths, sum[1] + bends])
+    }
+
+    /// Projects every active bend constraint once, as sweeps do, without moving the film: for benchmarks.
+    pub fn sweep_bends(&mut self, level: SimdLevel) {
+        self.points.sweep_bends(&self.regions, level);
+    }
+
+    /// Projects every active length constraint once, as sweeps do, without moving the film: for benchmarks.
+    pub fn sweep_lengths(&mut self, level: SimdLevel) {
+        self.points.sweep_lengths(&self.regions, level);
     }
 
     /// Vertices that move, in the order in which they began to.
@@ -298,7 +317,11 @@ impl FilmConstraints {
         let unit = self.points.unit();
         let [start, target] = self.angles[h.index()];
         let medians = bend.rest_medians.map(|median| (median / unit) * (median / unit));
-        self.place_bend(&mesh.topology, h, &BendLane { vertices: bend.points, skews: bend.skew, medians, start, target });
+        self.place_bend(
+            &mesh.topology,
+            h,
+            &BendLane { vertices: bend.points, skews: bend.skew, medians, start, target },
+        );
     }
 
     fn place_bend(&mut self, topology: &Topology, h: HalfEdgeId, bend: &BendLane) {
@@ -346,8 +369,7 @@ impl FilmConstraints {
 
     /// Gives up packs that are nearly empty: at most one of each kind in each region, so that the work is bounded.
     pub(super) fn compact(&mut self, topology: &Topology) {
-        let (mut bends, mut lengths) =
-            (std::mem::take(&mut self.spare_bends), std::mem::take(&mut self.spare_lengths));
+        let (mut bends, mut lengths) = (std::mem::take(&mut self.spare_bends), std::mem::take(&mut self.spare_lengths));
         for region in 0..self.regions.len() {
             if let Some(pack) = self.regions[region].sparse_bends() {
                 let lanes = &mut self.bend_lanes;

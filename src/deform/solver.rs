@@ -52,12 +52,7 @@ pub struct SolvePace {
 
 impl SolvePace {
     /// The pace of step number `step` (1 is the first) when an age has `steps_per_age` steps.
-    pub fn of_step(
-        sweeps_per_age: f32,
-        quality: SolverQuality,
-        (step, steps_per_age): (u64, u32),
-        tick: bool,
-    ) -> Self {
+    pub fn of_step(sweeps_per_age: f32, quality: SolverQuality, (step, steps_per_age): (u64, u32), tick: bool) -> Self {
         let (sweeps_per_age, momentum) = sweeps_and_momentum(sweeps_per_age, quality);
         let sweeps = sweeps_of_step(sweeps_per_age, step, steps_per_age);
         Self { dt: 1.0 / steps_per_age.max(1) as f32, sweeps, momentum, tick, quality }

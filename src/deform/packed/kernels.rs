@@ -6,7 +6,7 @@
 use super::{
     lanes::Lanes,
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::Point,
+    points::{Place, Point},
 };
 
 /// Three components.
@@ -27,6 +27,11 @@ impl<L: Lanes> Vec3<L> {
     #[inline(always)]
     unsafe fn scale(self, s: L) -> Self {
         unsafe { Self(self.0.mul(s), self.1.mul(s), self.2.mul(s)) }
+    }
+
+    #[inline(always)]
+    unsafe fn keep(self, mask: L::Mask) -> Self {
+        unsafe { Self(self.0.keep(mask), self.1.keep(mask), self.2.keep(mask)) }
     }
 
     #[inline(always)]
@@ -68,9 +73,12 @@ const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
 /// the printed correction. Its strain `1 - sqrt(1 + k_i) sqrt(y_i / (y_i - z_i))` is replaced by the rational
 /// `-(z_i + k_i y_i) / ((2 + k_i) y_i - z_i)`, which has the same zero and the same slope there and stays bounded.
 /// Corrections are shared as in [`bend_corrections`](crate::deform::bend::bend_corrections).
+///
+/// The packs begun last, where the film came off last, are solved first: then flakes lift as they do with constraints
+/// solved in the order of the mesh; the other way round they lag by some percent.
 #[inline(always)]
 pub(super) unsafe fn sweep_bends<L: Lanes>(points: *mut Point, packs: &[BendPack]) {
-    for pack in packs {
+    for pack in packs.iter().rev() {
         for at in (0..LANES).step_by(L::WIDTH) {
             // SAFETY: `at` is within the pack and the rest is the caller's.
             unsafe { bend::<L>(points, pack, at) };
@@ -81,7 +89,7 @@ pub(super) unsafe fn sweep_bends<L: Lanes>(points: *mut Point, packs: &[BendPack
 #[inline(always)]
 unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
     unsafe {
-        let places: [*const u32; 4] = [0, 1, 2, 3].map(|i| pack.points[i].as_ptr().add(at));
+        let places: [*const Place; 4] = [0, 1, 2, 3].map(|i| pack.points[i].as_ptr().add(at));
         let (p1, w1) = split(L::gather(points, places[0]));
         let (p2, w2) = split(L::gather(points, places[1]));
         let (p3, w3) = split(L::gather(points, places[2]));
@@ -108,8 +116,10 @@ unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
         let share = one.div(total.mul(both)).keep(valid);
         let whole = both.mul(share);
         let edge_part = b3.scale(without3).add(b4.scale(without4)).scale(share);
-        L::scatter(points, places[0], join(p1.add(edge_part.scale(w1)), w1));
-        L::scatter(points, places[1], join(p2.add(edge_part.scale(w2)), w2));
+        // Inverse masses are 0 or 1: leaving out is multiplying.
+        let (free1, free2) = (w1.gt(zero), w2.gt(zero));
+        L::scatter(points, places[0], join(p1.add(edge_part.keep(free1)), w1));
+        L::scatter(points, places[1], join(p2.add(edge_part.keep(free2)), w2));
         L::scatter(points, places[2], join(p3.sub(b3.scale(w3.mul(whole))), w3));
         L::scatter(points, places[3], join(p4.sub(b4.scale(w4.mul(whole))), w4));
     }
@@ -131,12 +141,13 @@ impl<L: Lanes> Pair<L> {
     #[inline(always)]
     unsafe fn wing(self, a: Vec3<L>, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
         unsafe {
-            let (fold, rest, one, two) = (L::load(fold), L::load(rest), L::splat(1.0), L::splat(2.0));
+            let (fold, rest, one) = (L::load(fold), L::load(rest), L::splat(1.0));
             let median = a.dot(a);
             let (y, z) = (median.mul(self.mm).sqrt(), n.mul(self.d));
             let q = a.sub(self.m.scale(y.mul(self.reciprocal)));
-            let over = z.add(fold.mul(y));
-            let under = two.add(fold).mul(y).sub(z);
+            let rest_cosine = fold.mul(y);
+            let over = z.add(rest_cosine);
+            let under = y.add(y).add(rest_cosine).sub(z);
             // A stretched wing corrects less, by the square of rest over current median: otherwise corrections grow
             // with the stretch they cause.
             let stretched = median.gt(rest);
@@ -151,7 +162,7 @@ impl<L: Lanes> Pair<L> {
 /// Every length constraint in turn (VC 4.2).
 #[inline(always)]
 pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[LengthPack]) {
-    for pack in packs {
+    for pack in packs.iter().rev() {
         for at in (0..LANES).step_by(L::WIDTH) {
             // SAFETY: `at` is within the pack and the rest is the caller's.
             unsafe { length::<L>(points, pack, at) };
@@ -169,10 +180,12 @@ unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
         let difference = p1.sub(p2);
         let length = difference.dot(difference).sqrt();
         let under = w1.add(w2).mul(length);
-        let valid = under.gt(L::splat(0.0));
+        let zero = L::splat(0.0);
+        let valid = under.gt(zero);
         let correction = difference.scale(length.sub(rest).div(under).keep(valid));
-        L::scatter(points, places[0], join(p1.sub(correction.scale(w1)), w1));
-        L::scatter(points, places[1], join(p2.add(correction.scale(w2)), w2));
+        let (free1, free2) = (w1.gt(zero), w2.gt(zero));
+        L::scatter(points, places[0], join(p1.sub(correction.keep(free1)), w1));
+        L::scatter(points, places[1], join(p2.add(correction.keep(free2)), w2));
     }
 }
 
@@ -186,10 +199,10 @@ unsafe fn above<L: Lanes>(p: Vec3<L>, normal: Vec3<L>, distance: L) -> Vec3<L> {
     }
 }
 
-/// Half-space of the points at `indices`.
+/// Half-space of the points at `places`.
 #[inline(always)]
-pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, indices: &[u32]) {
-    for group in indices.chunks_exact(L::WIDTH) {
+pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, places: &[Place]) {
+    for group in places.chunks_exact(L::WIDTH) {
         // SAFETY: the caller's.
         unsafe {
             let (p, w) = split(L::gather(points, group.as_ptr()));
@@ -199,17 +212,17 @@ pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point,
     }
 }
 
-/// Heavy-ball momentum: the points at `indices` go on by `keep` of what they moved since `before`, which becomes where
+/// Heavy-ball momentum: the points at `places` go on by `keep` of what they moved since `before`, which becomes where
 /// they are now; then the half-space.
 #[inline(always)]
 pub(super) unsafe fn advance<L: Lanes>(
     points: *mut Point,
     before: *mut Point,
     planes: *const Point,
-    indices: &[u32],
+    places: &[Place],
     keep: f32,
 ) {
-    for group in indices.chunks_exact(L::WIDTH) {
+    for group in places.chunks_exact(L::WIDTH) {
         // SAFETY: the caller's.
         unsafe {
             let (p, w) = split(L::gather(points, group.as_ptr()));

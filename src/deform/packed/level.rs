@@ -4,7 +4,7 @@ use super::{
     kernels,
     lanes::{self, Lanes},
     pack::{BendPack, BendTargets, LengthPack},
-    points::Point,
+    points::{Place, Point},
 };
 
 /// An instruction set that the solver has kernels for. All give the same bits.
@@ -72,8 +72,8 @@ impl Default for SimdLevel {
 pub(super) struct Kernels {
     pub sweep_bends: unsafe fn(*mut Point, &[BendPack]),
     pub sweep_lengths: unsafe fn(*mut Point, &[LengthPack]),
-    pub project: unsafe fn(*mut Point, *const Point, &[u32]),
-    pub advance: unsafe fn(*mut Point, *mut Point, *const Point, &[u32], f32),
+    pub project: unsafe fn(*mut Point, *const Point, &[Place]),
+    pub advance: unsafe fn(*mut Point, *mut Point, *const Point, &[Place], f32),
     pub narrow: unsafe fn(&mut BendPack, &mut BendTargets, f32, f32) -> bool,
 }
 
@@ -90,12 +90,12 @@ macro_rules! kernels_with {
             unsafe { kernels::sweep_lengths::<$Lanes>(points, packs) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn project(points: *mut Point, planes: *const Point, indices: &[u32]) {
-            unsafe { kernels::project::<$Lanes>(points, planes, indices) }
+        unsafe fn project(points: *mut Point, planes: *const Point, places: &[Place]) {
+            unsafe { kernels::project::<$Lanes>(points, planes, places) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, indices: &[u32], keep: f32) {
-            unsafe { kernels::advance::<$Lanes>(points, before, planes, indices, keep) }
+        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, places: &[Place], keep: f32) {
+            unsafe { kernels::advance::<$Lanes>(points, before, planes, places, keep) }
         }
         $(#[target_feature(enable = $feature)])?
         unsafe fn narrow(pack: &mut BendPack, angles: &mut BendTargets, step: f32, limit: f32) -> bool {
@@ -116,9 +116,9 @@ impl Kernels {
             #[cfg(target_arch = "x86_64")]
             SimdLevel::Sse2 => kernels_with!(lanes::sse2::Sse2),
             #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx2 => kernels_with!(lanes::avx2::Avx2, "avx2"),
+            SimdLevel::Avx2 => kernels_with!(lanes::pair::Pair<lanes::avx2::Avx2>, "avx2"),
             #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx512 => kernels_with!(lanes::avx512::Avx512, "avx512f"),
+            SimdLevel::Avx512 => kernels_with!(lanes::pair::Pair<lanes::avx512::Avx512>, "avx512f"),
             #[cfg(target_arch = "aarch64")]
             SimdLevel::Neon => kernels_with!(lanes::neon::Neon),
             _ => kernels_with!(lanes::scalar::Scalar),

@@ -9,8 +9,34 @@ use super::level::{Kernels, SimdLevel};
 #[repr(C, align(16))]
 pub struct Point(pub(super) [f32; 4]);
 
+/// Where a point lies: its offset in bytes, as scaling an index by 16 costs an instruction each time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(transparent)]
+pub(super) struct Place(u32);
+
+impl Place {
+    /// Of the null point.
+    pub const NULL: Self = Self(0);
+
+    /// Of vertex `v`. Films have far fewer vertices than the 2^28 that fit.
+    pub fn of(v: usize) -> Self {
+        Self((v as u32 + 1) * 16)
+    }
+
+    /// Offset from the first point, in bytes.
+    #[inline(always)]
+    pub fn bytes(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The vertex; meaningless for the null point.
+    pub fn vertex(self) -> usize {
+        (self.0 / 16) as usize - 1
+    }
+}
+
 /// Widest group of points that a kernel takes.
-const GROUP: usize = 16;
+const GROUP: usize = 32;
 
 /// What a vertex does in the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +65,7 @@ pub struct Points {
     planes: Vec<Point>,
     motions: Vec<Motion>,
     /// Awake points in the order in which they woke, padded with the null point to whole groups.
-    awake: Vec<u32>,
+    awake: Vec<Place>,
     awake_count: usize,
 }
 
@@ -87,17 +113,12 @@ impl Points {
 
     /// Awake vertices, in the order in which they woke.
     pub fn awake(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.awake[..self.awake_count].iter().map(|&p| p as usize - 1)
+        self.awake[..self.awake_count].iter().map(|place| place.vertex())
     }
 
     /// Number of awake vertices.
     pub fn awake_count(&self) -> usize {
         self.awake_count
-    }
-
-    /// The awake vertex at `place` of the list.
-    pub fn awake_at(&self, place: usize) -> usize {
-        self.awake[place] as usize - 1
     }
 
     /// Appends a duplicate of vertex `kept`.
@@ -123,9 +144,9 @@ impl Points {
         self.motions[v] = Motion::Awake;
         self.now[v + 1].0[3] = 1.0;
         self.awake.truncate(self.awake_count);
-        self.awake.push(v as u32 + 1);
+        self.awake.push(Place::of(v));
         self.awake_count += 1;
-        self.awake.resize(self.awake_count.next_multiple_of(GROUP), 0);
+        self.awake.resize(self.awake_count.next_multiple_of(GROUP), Place::NULL);
     }
 
     /// Takes vertices off the list of awake ones: `judge` gives what becomes of each.
@@ -133,7 +154,7 @@ impl Points {
         let mut kept = 0;
         for place in 0..self.awake_count {
             let point = self.awake[place];
-            let v = point as usize - 1;
+            let v = point.vertex();
             let motion = judge(self, v);
             if motion == Motion::Awake {
                 self.awake[kept] = point;
@@ -146,7 +167,7 @@ impl Points {
         }
         self.awake_count = kept;
         self.awake.truncate(kept);
-        self.awake.resize(kept.next_multiple_of(GROUP), 0);
+        self.awake.resize(kept.next_multiple_of(GROUP), Place::NULL);
     }
 
     /// Puts vertex `v` to `position` and its last place to `before`, both in the film's unit.
@@ -200,6 +221,18 @@ impl Points {
         for region in regions {
             region.sweep_lengths(self, &kernels);
         }
+    }
+
+    /// Bends alone.
+    pub fn sweep_bends(&mut self, regions: &[super::Region], level: SimdLevel) {
+        let kernels = Kernels::of(level);
+        regions.iter().for_each(|region| region.sweep_bends(self, &kernels));
+    }
+
+    /// Lengths alone.
+    pub fn sweep_lengths(&mut self, regions: &[super::Region], level: SimdLevel) {
+        let kernels = Kernels::of(level);
+        regions.iter().for_each(|region| region.sweep_lengths(self, &kernels));
     }
 
     /// The half-space after the last sweep of a step.

@@ -3,7 +3,7 @@
 use super::{
     level::Kernels,
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::{Motion, Points},
+    points::{Motion, Place, Points},
     slots::{Blocked, Slots},
 };
 use crate::deform::SimdLevel;
@@ -109,7 +109,7 @@ impl Region {
         let (pack, place) = split(lane);
         let (bends, targets) = (&self.bends[pack], &self.targets[pack]);
         BendLane {
-            vertices: [0, 1, 2, 3].map(|i| bends.points[i][place].wrapping_sub(1)),
+            vertices: [0, 1, 2, 3].map(|i| bends.points[i][place].vertex() as u32),
             skews: [0, 1].map(|i| targets.skews[i][place]),
             medians: [0, 1].map(|i| bends.medians[i][place]),
             start: targets.starts[place],
@@ -121,7 +121,7 @@ impl Region {
     pub fn length(&self, lane: u32) -> LengthLane {
         let (pack, place) = split(lane);
         let lengths = &self.lengths[pack];
-        LengthLane { vertices: [0, 1].map(|i| lengths.points[i][place].wrapping_sub(1)), rest: lengths.rest[place] }
+        LengthLane { vertices: [0, 1].map(|i| lengths.points[i][place].vertex() as u32), rest: lengths.rest[place] }
     }
 
     /// Takes a bend out of its lane.
@@ -130,7 +130,7 @@ impl Region {
         let (pack, place) = split(lane);
         let (bends, targets) = (&mut self.bends[pack], &mut self.targets[pack]);
         for i in 0..4 {
-            bends.points[i][place] = 0;
+            bends.points[i][place] = Place::NULL;
         }
         for i in 0..2 {
             bends.medians[i][place] = 0.0;
@@ -148,7 +148,7 @@ impl Region {
         let length = self.length(lane);
         let (pack, place) = split(lane);
         for i in 0..2 {
-            self.lengths[pack].points[i][place] = 0;
+            self.lengths[pack].points[i][place] = Place::NULL;
         }
         self.lengths[pack].rest[place] = 0.0;
         self.length_slots.release(lane);
@@ -158,13 +158,13 @@ impl Region {
     /// Whether every vertex that `lane`'s bend refers to is still.
     pub fn bend_is_still(&self, lane: u32, points: &Points) -> bool {
         let (pack, place) = split(lane);
-        self.bends[pack].points.iter().all(|p| points.motion(p[place] as usize - 1) != Motion::Awake)
+        self.bends[pack].points.iter().all(|p| points.motion(p[place].vertex()) != Motion::Awake)
     }
 
     /// Whether both vertices that `lane`'s length refers to are still.
     pub fn length_is_still(&self, lane: u32, points: &Points) -> bool {
         let (pack, place) = split(lane);
-        self.lengths[pack].points.iter().all(|p| points.motion(p[place] as usize - 1) != Motion::Awake)
+        self.lengths[pack].points.iter().all(|p| points.motion(p[place].vertex()) != Motion::Awake)
     }
 
     /// Narrows all targets by `step`, down to `limit` below where they began (radians).
@@ -263,7 +263,7 @@ fn split(lane: u32) -> (usize, usize) {
 }
 
 /// The point of a vertex; the null point for one that does not exist, so that the kernels may trust every index.
-fn point_of(v: u32, points: &Points) -> u32 {
+fn point_of(v: u32, points: &Points) -> Place {
     debug_assert!((v as usize) < points.len());
-    if (v as usize) < points.len() { v + 1 } else { 0 }
+    if (v as usize) < points.len() { Place::of(v as usize) } else { Place::NULL }
 }

@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Point};
+use super::{Lanes, Place, Point};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Avx2(__m256);
@@ -75,10 +75,10 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let half = |i| _mm_loadu_ps(points.add(*indices.add(i) as usize).cast());
-            // Each row holds points i and i + 4, so that lanes end up in the order of the indices.
+            let half = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
+            // Each row holds points i and i + 4, so that lanes end up in the order of the places.
             let row = |i| _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(half(i)), half(i + 4));
             let (a, b, c, d) = (row(0), row(1), row(2), row(3));
             let (xy, zw) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
@@ -88,13 +88,13 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, indices: *const u32, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm256_unpacklo_ps(z.0, w.0), _mm256_unpackhi_ps(z.0, w.0));
             let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
             for (i, row) in rows.into_iter().enumerate() {
-                let place = |i| points.add(*indices.add(i) as usize).cast();
+                let place = |i| points.byte_add((*places.add(i)).bytes()).cast();
                 _mm_storeu_ps(place(i), _mm256_castps256_ps128(row));
                 _mm_storeu_ps(place(i + 4), _mm256_extractf128_ps::<1>(row));
             }

@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Point};
+use super::{Lanes, Place, Point};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Avx512(__m512);
@@ -74,10 +74,10 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let quarter = |i| _mm_loadu_ps(points.add(*indices.add(i) as usize).cast());
-            // Each row holds points i, i + 4, i + 8 and i + 12, so that lanes end up in the order of the indices.
+            let quarter = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
+            // Each row holds points i, i + 4, i + 8 and i + 12, so that lanes end up in the order of the places.
             let row = |i| {
                 let row = _mm512_castps128_ps512(quarter(i));
                 let row = _mm512_insertf32x4::<1>(row, quarter(i + 4));
@@ -92,13 +92,13 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, indices: *const u32, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm512_unpacklo_ps(x.0, y.0), _mm512_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm512_unpacklo_ps(z.0, w.0), _mm512_unpackhi_ps(z.0, w.0));
             let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
             for (i, row) in rows.into_iter().enumerate() {
-                let place = |i| points.add(*indices.add(i) as usize).cast();
+                let place = |i| points.byte_add((*places.add(i)).bytes()).cast();
                 _mm_storeu_ps(place(i), _mm512_castps512_ps128(row));
                 _mm_storeu_ps(place(i + 4), _mm512_extractf32x4_ps::<1>(row));
                 _mm_storeu_ps(place(i + 8), _mm512_extractf32x4_ps::<2>(row));

@@ -10,17 +10,18 @@ pub(super) mod avx2;
 pub(super) mod avx512;
 #[cfg(target_arch = "aarch64")]
 pub(super) mod neon;
+pub(super) mod pair;
 pub(super) mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub(super) mod sse2;
 
-use super::points::Point;
+use super::points::{Place, Point};
 
 /// As many floats as fit a register.
 ///
 /// # Safety
 /// All functions may only be called where the CPU has the instruction set of the type. Pointers must be valid for
-/// `WIDTH` floats or indices, and indices within the points. Alignment does not matter.
+/// `WIDTH` floats or places, and places within the points. Alignment does not matter.
 pub(super) trait Lanes: Copy {
     /// Number of floats.
     const WIDTH: usize;
@@ -44,8 +45,8 @@ pub(super) trait Lanes: Copy {
     unsafe fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// `self` where the mask holds, +0 elsewhere.
     unsafe fn keep(self, mask: Self::Mask) -> Self;
-    /// The four components of the points at `indices`, a vector each.
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4];
-    /// Writes four components to the points at `indices`, which are all different or written the same.
-    unsafe fn scatter(points: *mut Point, indices: *const u32, components: [Self; 4]);
+    /// The four components of the points at `places`, a vector each.
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4];
+    /// Writes four components to the points at `places`, which are all different or written the same.
+    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]);
 }

@@ -2,7 +2,7 @@
 
 use core::arch::aarch64::*;
 
-use super::{Lanes, Point};
+use super::{Lanes, Place, Point};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Neon(float32x4_t);
@@ -74,18 +74,18 @@ impl Lanes for Neon {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let row = |i| vld1q_f32(points.add(*indices.add(i) as usize).cast());
+            let row = |i| vld1q_f32(points.byte_add((*places.add(i)).bytes()).cast());
             transpose([row(0), row(1), row(2), row(3)]).map(Self)
         }
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, indices: *const u32, components: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]) {
         unsafe {
             for (i, row) in transpose(components.map(|c| c.0)).into_iter().enumerate() {
-                vst1q_f32(points.add(*indices.add(i) as usize).cast(), row);
+                vst1q_f32(points.byte_add((*places.add(i)).bytes()).cast(), row);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! One float at a time: the twin that runs everywhere.
 
-use super::{Lanes, Point};
+use super::{Lanes, Place, Point};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Scalar(f32);
@@ -73,14 +73,14 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         // SAFETY: the caller's.
-        unsafe { (*points.add(*indices as usize)).0.map(Self) }
+        unsafe { (*points.byte_add((*places).bytes())).0.map(Self) }
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, indices: *const u32, components: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]) {
         // SAFETY: the caller's.
-        unsafe { (*points.add(*indices as usize)).0 = components.map(|c| c.0) }
+        unsafe { (*points.byte_add((*places).bytes())).0 = components.map(|c| c.0) }
     }
 }

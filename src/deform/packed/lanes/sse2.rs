@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Point};
+use super::{Lanes, Place, Point};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Sse2(__m128);
@@ -74,9 +74,9 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, indices: *const u32) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let row = |i| _mm_loadu_ps(points.add(*indices.add(i) as usize).cast());
+            let row = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
             let (a, b, c, d) = (row(0), row(1), row(2), row(3));
             let (xy, zw) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
@@ -90,14 +90,14 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, indices: *const u32, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm_unpacklo_ps(x.0, y.0), _mm_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm_unpacklo_ps(z.0, w.0), _mm_unpackhi_ps(z.0, w.0));
             let rows =
                 [_mm_movelh_ps(xy, zw), _mm_movehl_ps(zw, xy), _mm_movelh_ps(xy_2, zw_2), _mm_movehl_ps(zw_2, xy_2)];
             for (i, row) in rows.into_iter().enumerate() {
-                _mm_storeu_ps(points.add(*indices.add(i) as usize).cast(), row);
+                _mm_storeu_ps(points.byte_add((*places.add(i)).bytes()).cast(), row);
             }
         }
     }
