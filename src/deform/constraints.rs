@@ -7,7 +7,7 @@
 use super::{
     BendConstraint, LengthConstraint, SolverQuality,
     packed::{BendLane, Blocked, LengthLane, Motion, Points, Region, SimdLevel},
-    regions::regions_of,
+    regions::Layout,
 };
 use crate::{
     film::{FilmMesh, Geometry, HalfEdgeId, InvariantError, Topology, VertexId},
@@ -55,11 +55,11 @@ impl FilmConstraints {
     pub fn new(mesh: &FilmMesh) -> Self {
         let geometry = &mesh.geometry;
         let half_edges = mesh.topology.half_edge_count();
-        let (region_of, count) = regions_of(&geometry.rest_positions);
+        let layout = Layout::new(&geometry.rest_positions);
         Self {
-            points: Points::new(&geometry.rest_positions, &geometry.rest_normals, geometry.mean_edge),
-            regions: vec![Region::default(); count],
-            region_of,
+            points: Points::new(&geometry.rest_positions, &geometry.rest_normals, geometry.mean_edge, &layout),
+            regions: vec![Region::default(); layout.regions],
+            region_of: layout.region_of,
             length_lanes: vec![NONE; half_edges],
             bend_lanes: vec![NONE; half_edges],
             angles: vec![[0.0; 2]; half_edges],
@@ -144,7 +144,7 @@ impl FilmConstraints {
         let target = match self.bend_lanes[h.index()] {
             NONE => return None,
             PARKED => self.angles[h.index()][1],
-            lane => self.region(&mesh.topology, h).bend(lane).target,
+            lane => self.region(&mesh.topology, h).bend(lane, &self.points).target,
         };
         let mut bend = self.bend_at_rest(mesh, h);
         bend.set_target(target);
@@ -210,7 +210,7 @@ impl FilmConstraints {
         }
         if lane < PARKED {
             let region = self.region_index(topology, h);
-            self.regions[region].remove_length(lane);
+            self.regions[region].remove_length(lane, &self.points);
         }
     }
 
@@ -223,7 +223,7 @@ impl FilmConstraints {
         }
         if lane < PARKED {
             let region = self.region_index(topology, h);
-            self.regions[region].remove_bend(lane);
+            self.regions[region].remove_bend(lane, &self.points);
         }
     }
 
@@ -242,8 +242,9 @@ impl FilmConstraints {
     }
 
     /// A vertex was appended: a copy of `kept`.
-    pub(super) fn duplicate(&mut self, kept: VertexId) {
-        self.points.duplicate(kept.index());
+    pub(super) fn duplicate(&mut self, topology: &Topology, kept: VertexId) {
+        let region = self.region_of[topology.original(kept).index()];
+        self.points.duplicate(kept.index(), region as usize);
         self.rest.append(kept.index());
     }
 
@@ -349,11 +350,11 @@ impl FilmConstraints {
         let region = self.region_index(topology, h);
         let (length, bend) = (self.length_lanes[h.index()], self.bend_lanes[h.index()]);
         if length < PARKED && self.regions[region].length_is_still(length, &self.points) {
-            self.regions[region].remove_length(length);
+            self.regions[region].remove_length(length, &self.points);
             self.length_lanes[h.index()] = PARKED;
         }
         if bend < PARKED && self.regions[region].bend_is_still(bend, &self.points) {
-            self.angles[h.index()][1] = self.regions[region].remove_bend(bend).target;
+            self.angles[h.index()][1] = self.regions[region].remove_bend(bend, &self.points).target;
             self.bend_lanes[h.index()] = PARKED;
         }
     }
@@ -362,7 +363,7 @@ impl FilmConstraints {
     pub(super) fn is_narrowing(&self, topology: &Topology, h: HalfEdgeId, limit: f32) -> bool {
         let lane = self.bend_lanes[h.index()];
         lane < PARKED && {
-            let bend = self.region(topology, h).bend(lane);
+            let bend = self.region(topology, h).bend(lane, &self.points);
             bend.target > bend.start - limit
         }
     }
@@ -373,7 +374,8 @@ impl FilmConstraints {
         for region in 0..self.regions.len() {
             if let Some(pack) = self.regions[region].sparse_bends() {
                 let lanes = &mut self.bend_lanes;
-                self.regions[region].dissolve_bends(pack, &mut bends, |owner, lane| lanes[owner as usize] = lane);
+                self.regions[region]
+                    .dissolve_bends(pack, &self.points, &mut bends, |owner, lane| lanes[owner as usize] = lane);
                 for &(owner, _) in &bends {
                     self.bend_lanes[owner as usize] = PARKED;
                 }
@@ -383,7 +385,8 @@ impl FilmConstraints {
             }
             if let Some(pack) = self.regions[region].sparse_lengths() {
                 let lanes = &mut self.length_lanes;
-                self.regions[region].dissolve_lengths(pack, &mut lengths, |owner, lane| lanes[owner as usize] = lane);
+                self.regions[region]
+                    .dissolve_lengths(pack, &self.points, &mut lengths, |owner, lane| lanes[owner as usize] = lane);
                 for &(owner, _) in &lengths {
                     self.length_lanes[owner as usize] = PARKED;
                 }
@@ -417,7 +420,7 @@ impl FilmConstraints {
         match self.bend_lanes[h.index()] {
             NONE => None,
             PARKED => Some(self.angles[h.index()][1]),
-            lane => Some(self.region(topology, h).bend(lane).target),
+            lane => Some(self.region(topology, h).bend(lane, &self.points).target),
         }
     }
 
@@ -467,7 +470,7 @@ impl FilmConstraints {
                 right &= (length_lane == PARKED) != moves(&[a.0, b.0]);
             }
             if length && length_lane != PARKED {
-                let lane = self.regions[region].length(length_lane);
+                let lane = self.regions[region].length(length_lane, &self.points);
                 right &= lane.vertices == [a.0, b.0];
                 users[region].extend(lane.vertices.map(|v| (0, length_lane / 32, v)));
             }
@@ -475,7 +478,7 @@ impl FilmConstraints {
                 right &= (bend_lane == PARKED) != moves(&bend_points(topology, h));
             }
             if bend && bend_lane != PARKED {
-                let lane = self.regions[region].bend(bend_lane);
+                let lane = self.regions[region].bend(bend_lane, &self.points);
                 right &= lane.vertices == bend_points(topology, h) && lane.start == self.angles[h.index()][0];
                 users[region].extend(lane.vertices.map(|v| (1, bend_lane / 32, v)));
             }

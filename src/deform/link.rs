@@ -24,7 +24,7 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
             // A duplicate's state is that of its vertex: it has separated, in this step or before.
             TearEnd::Split { kept, .. } => {
                 constraints.wake(mesh, kept);
-                constraints.duplicate(kept);
+                constraints.duplicate(topology, kept);
             }
         }
     }
@@ -56,7 +56,7 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
         constrain_ring(mesh, constraints, v);
     }
     if !changes.removed.is_empty() {
-        constraints.forget_gone(topology);
+        constraints.forget(topology, &changes.removed);
     }
     if !(changes.torn.is_empty() && changes.removed.is_empty()) {
         constraints.compact(topology);

@@ -119,7 +119,7 @@ pub fn bend_film(
         rigid::put_back(&mut mesh.geometry, loose, constraints, &scratch.before);
     }
     if pace.tick && pace.quality != SolverQuality::Reference {
-        constraints.doze(mesh, settings.bend_limit);
+        constraints.doze(mesh, loose, settings.bend_limit);
     }
 }
 

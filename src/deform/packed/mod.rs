@@ -26,3 +26,6 @@ pub use level::SimdLevel;
 pub use points::{Motion, Points};
 pub use region::{BendLane, LengthLane, Region};
 pub use slots::Blocked;
+
+#[cfg(test)]
+mod tests;

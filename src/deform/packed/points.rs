@@ -3,6 +3,7 @@
 use bevy_math::Vec3;
 
 use super::level::{Kernels, SimdLevel};
+use crate::deform::regions::Layout;
 
 /// Position (x, y, z) and inverse mass of a point; or unit normal and distance from the origin of a plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,9 +19,9 @@ impl Place {
     /// Of the null point.
     pub const NULL: Self = Self(0);
 
-    /// Of vertex `v`. Films have far fewer vertices than the 2^28 that fit.
-    pub fn of(v: usize) -> Self {
-        Self((v as u32 + 1) * 16)
+    /// Of the point at `index`. Films have far fewer points than the 2^28 that fit.
+    pub(super) fn new(index: usize) -> Self {
+        Self(index as u32 * 16)
     }
 
     /// Offset from the first point, in bytes.
@@ -29,12 +30,16 @@ impl Place {
         self.0 as usize
     }
 
-    /// The vertex; meaningless for the null point.
-    pub fn vertex(self) -> usize {
-        (self.0 / 16) as usize - 1
+    #[inline(always)]
+    fn index(self) -> usize {
+        (self.0 / 16) as usize
     }
 }
 
+/// No vertex.
+const NO_VERTEX: u32 = u32::MAX;
+/// A region has room for one duplicate in so many vertices. More of them lie behind all regions.
+const ROOM: usize = 4;
 /// Widest group of points that a kernel takes.
 const GROUP: usize = 32;
 
@@ -51,13 +56,20 @@ pub enum Motion {
     Gone,
 }
 
-/// The points of a film: point `v + 1` is vertex `v`, point 0 is the null point that unused lanes refer to.
+/// The points of a film. Point 0 is the null point that unused lanes refer to; the others lie region by region, with
+/// room for duplicates.
 ///
 /// Positions are in units of a power of two near the film's mean edge: products of many lengths then neither overflow
 /// nor vanish, and turning them back loses no bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
     unit: f32,
+    /// Place of each vertex.
+    places: Vec<Place>,
+    /// Vertex of each point; none for the null point and for room.
+    vertices: Vec<u32>,
+    /// Room that is left in each region: points from the first to before the second.
+    room: Vec<[u32; 2]>,
     now: Vec<Point>,
     /// Where each point was before the last sweep: what its momentum comes from.
     before: Vec<Point>,
@@ -71,22 +83,56 @@ pub struct Points {
 
 impl Points {
     /// The points of vertices at `rest` with their normals, all attached. `mean_edge` is in their unit.
-    pub fn new(rest: &[Vec3], normals: &[Vec3], mean_edge: f32) -> Self {
+    pub(in crate::deform) fn new(rest: &[Vec3], normals: &[Vec3], mean_edge: f32, layout: &Layout) -> Self {
         // The exponent alone; 1 for films without extent.
         let unit = f32::from_bits(mean_edge.to_bits() & 0x7f80_0000);
         let unit = if unit.is_normal() && (1.0 / unit).is_normal() { unit } else { 1.0 };
-        let scaled = rest.iter().map(|&p| (p / unit).extend(0.0));
-        let now: Vec<Point> = std::iter::once(Point::default()).chain(scaled.map(|p| Point(p.to_array()))).collect();
-        let planes = rest.iter().zip(normals).map(|(&p, &n)| Point(n.extend(n.dot(p / unit)).to_array()));
-        Self {
+        let mut points = Self {
             unit,
-            before: now.clone(),
-            planes: std::iter::once(Point::default()).chain(planes).collect(),
+            places: vec![Place::NULL; rest.len()],
             motions: vec![Motion::Attached; rest.len()],
-            now,
-            awake: Vec::new(),
-            awake_count: 0,
+            room: vec![[0; 2]; layout.regions],
+            ..Self::default()
+        };
+        points.push(NO_VERTEX, Point::default(), Point::default());
+        for region in layout.order.chunk_by(|&a, &b| layout.region_of[a as usize] == layout.region_of[b as usize]) {
+            for &v in region {
+                let i = v as usize;
+                let (p, n) = (rest[i] / unit, normals[i]);
+                points.places[i] =
+                    points.push(v, Point(p.extend(0.0).to_array()), Point(n.extend(n.dot(p)).to_array()));
+            }
+            let first = points.now.len() as u32;
+            let room = (region.len() / ROOM) as u32;
+            points.room[layout.region_of[region[0] as usize] as usize] = [first, first + room];
+            for _ in 0..room {
+                points.push(NO_VERTEX, Point::default(), Point::default());
+            }
         }
+        points
+    }
+
+    fn push(&mut self, vertex: u32, at: Point, plane: Point) -> Place {
+        self.vertices.push(vertex);
+        self.now.push(at);
+        self.before.push(at);
+        self.planes.push(plane);
+        Place::new(self.now.len() - 1)
+    }
+
+    /// Place of vertex `v`; that of the null point for one that does not exist, so that the kernels may trust every place.
+    pub(super) fn place(&self, v: u32) -> Place {
+        self.places.get(v as usize).copied().unwrap_or(Place::NULL)
+    }
+
+    /// The vertex at `place`; none for the null point.
+    pub(super) fn vertex(&self, place: Place) -> usize {
+        self.vertices[place.index()] as usize
+    }
+
+    /// What the vertex at `place` does.
+    pub(super) fn motion_at(&self, place: Place) -> Motion {
+        self.motions.get(self.vertex(place)).copied().unwrap_or(Motion::Attached)
     }
 
     /// Number of vertices.
@@ -108,12 +154,12 @@ impl Points {
     /// Position of vertex `v`, in the film's unit.
     #[inline]
     pub fn position(&self, v: usize) -> Vec3 {
-        xyz(self.now[v + 1]) * self.unit
+        xyz(self.now[self.places[v].index()]) * self.unit
     }
 
     /// Awake vertices, in the order in which they woke.
     pub fn awake(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.awake[..self.awake_count].iter().map(|place| place.vertex())
+        self.awake[..self.awake_count].iter().map(|&place| self.vertex(place))
     }
 
     /// Number of awake vertices.
@@ -121,18 +167,26 @@ impl Points {
         self.awake_count
     }
 
-    /// Appends a duplicate of vertex `kept`.
-    pub fn duplicate(&mut self, kept: usize) {
-        self.now.push(self.now[kept + 1]);
-        self.before.push(self.before[kept + 1]);
-        self.planes.push(self.planes[kept + 1]);
-        self.motions.push(Motion::Attached);
-        match self.motions[kept] {
-            Motion::Awake => self.wake(self.motions.len() - 1),
-            other => {
-                let last = self.motions.len() - 1;
-                self.motions[last] = other;
-            }
+    /// Appends a duplicate of vertex `kept`, which lies in `region`.
+    pub fn duplicate(&mut self, kept: usize, region: usize) {
+        let from = self.places[kept].index();
+        let (at, before, plane) = (self.now[from], self.before[from], self.planes[from]);
+        let v = self.places.len();
+        let [next, end] = &mut self.room[region];
+        let place = if next < end {
+            *next += 1;
+            Place::new(*next as usize - 1)
+        } else {
+            self.push(NO_VERTEX, at, plane)
+        };
+        let i = place.index();
+        (self.now[i], self.before[i], self.planes[i], self.vertices[i]) = (at, before, plane, v as u32);
+        self.places.push(place);
+        if self.motions[kept] == Motion::Awake {
+            self.motions.push(Motion::Asleep);
+            self.wake(v);
+        } else {
+            self.motions.push(self.motions[kept]);
         }
     }
 
@@ -142,27 +196,36 @@ impl Points {
             return;
         }
         self.motions[v] = Motion::Awake;
-        self.now[v + 1].0[3] = 1.0;
+        let place = self.places[v];
+        self.now[place.index()].0[3] = 1.0;
         self.awake.truncate(self.awake_count);
-        self.awake.push(Place::of(v));
+        self.awake.push(place);
         self.awake_count += 1;
         self.awake.resize(self.awake_count.next_multiple_of(GROUP), Place::NULL);
     }
 
-    /// Takes vertices off the list of awake ones: `judge` gives what becomes of each.
-    pub fn settle(&mut self, mut judge: impl FnMut(&Self, usize) -> Motion) {
+    /// Vertex `v` falls asleep; to be followed by [`Self::settle`].
+    pub fn rest(&mut self, v: usize) {
+        self.motions[v] = Motion::Asleep;
+    }
+
+    /// Vertex `v` has no faces left; to be followed by [`Self::settle`].
+    pub fn leave(&mut self, v: usize) {
+        self.motions[v] = Motion::Gone;
+    }
+
+    /// Takes the vertices that no longer move off the list of awake ones.
+    pub fn settle(&mut self) {
         let mut kept = 0;
-        for place in 0..self.awake_count {
-            let point = self.awake[place];
-            let v = point.vertex();
-            let motion = judge(self, v);
-            if motion == Motion::Awake {
-                self.awake[kept] = point;
+        for i in 0..self.awake_count {
+            let place = self.awake[i];
+            if self.motion_at(place) == Motion::Awake {
+                self.awake[kept] = place;
                 kept += 1;
             } else {
-                self.motions[v] = motion;
-                self.now[v + 1].0[3] = 0.0;
-                self.before[v + 1] = self.now[v + 1];
+                let point = &mut self.now[place.index()];
+                point.0[3] = 0.0;
+                self.before[place.index()] = *point;
             }
         }
         self.awake_count = kept;
@@ -173,14 +236,15 @@ impl Points {
     /// Puts vertex `v` to `position` and its last place to `before`, both in the film's unit.
     pub fn put(&mut self, v: usize, position: Vec3, before: Vec3) {
         let scale = 1.0 / self.unit;
-        let mass = self.now[v + 1].0[3];
-        self.now[v + 1] = Point((position * scale).extend(mass).to_array());
-        self.before[v + 1] = Point((before * scale).extend(mass).to_array());
+        let i = self.places[v].index();
+        let mass = self.now[i].0[3];
+        self.now[i] = Point((position * scale).extend(mass).to_array());
+        self.before[i] = Point((before * scale).extend(mass).to_array());
     }
 
     /// Where vertex `v` was before the last sweep, in the film's unit.
     pub fn position_before(&self, v: usize) -> Vec3 {
-        xyz(self.before[v + 1]) * self.unit
+        xyz(self.before[self.places[v].index()]) * self.unit
     }
 
     /// Writes the positions of awake vertices, in the film's unit.

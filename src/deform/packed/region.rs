@@ -92,7 +92,7 @@ impl Region {
     pub fn move_bend(&mut self, lane: u32, vertices: [u32; 4], points: &Points) {
         let (pack, place) = split(lane);
         for (i, v) in vertices.into_iter().enumerate() {
-            self.bends[pack].points[i][place] = point_of(v, points);
+            self.bends[pack].points[i][place] = points.place(v);
         }
     }
 
@@ -100,16 +100,16 @@ impl Region {
     pub fn move_length(&mut self, lane: u32, vertices: [u32; 2], points: &Points) {
         let (pack, place) = split(lane);
         for (i, v) in vertices.into_iter().enumerate() {
-            self.lengths[pack].points[i][place] = point_of(v, points);
+            self.lengths[pack].points[i][place] = points.place(v);
         }
     }
 
     /// The bend in `lane`.
-    pub fn bend(&self, lane: u32) -> BendLane {
+    pub fn bend(&self, lane: u32, points: &Points) -> BendLane {
         let (pack, place) = split(lane);
         let (bends, targets) = (&self.bends[pack], &self.targets[pack]);
         BendLane {
-            vertices: [0, 1, 2, 3].map(|i| bends.points[i][place].vertex() as u32),
+            vertices: [0, 1, 2, 3].map(|i| points.vertex(bends.points[i][place]) as u32),
             skews: [0, 1].map(|i| targets.skews[i][place]),
             medians: [0, 1].map(|i| bends.medians[i][place]),
             start: targets.starts[place],
@@ -118,15 +118,18 @@ impl Region {
     }
 
     /// The length in `lane`.
-    pub fn length(&self, lane: u32) -> LengthLane {
+    pub fn length(&self, lane: u32, points: &Points) -> LengthLane {
         let (pack, place) = split(lane);
         let lengths = &self.lengths[pack];
-        LengthLane { vertices: [0, 1].map(|i| lengths.points[i][place].vertex() as u32), rest: lengths.rest[place] }
+        LengthLane {
+            vertices: [0, 1].map(|i| points.vertex(lengths.points[i][place]) as u32),
+            rest: lengths.rest[place],
+        }
     }
 
     /// Takes a bend out of its lane.
-    pub fn remove_bend(&mut self, lane: u32) -> BendLane {
-        let bend = self.bend(lane);
+    pub fn remove_bend(&mut self, lane: u32, points: &Points) -> BendLane {
+        let bend = self.bend(lane, points);
         let (pack, place) = split(lane);
         let (bends, targets) = (&mut self.bends[pack], &mut self.targets[pack]);
         for i in 0..4 {
@@ -144,8 +147,8 @@ impl Region {
     }
 
     /// Takes a length out of its lane.
-    pub fn remove_length(&mut self, lane: u32) -> LengthLane {
-        let length = self.length(lane);
+    pub fn remove_length(&mut self, lane: u32, points: &Points) -> LengthLane {
+        let length = self.length(lane, points);
         let (pack, place) = split(lane);
         for i in 0..2 {
             self.lengths[pack].points[i][place] = Place::NULL;
@@ -158,13 +161,13 @@ impl Region {
     /// Whether every vertex that `lane`'s bend refers to is still.
     pub fn bend_is_still(&self, lane: u32, points: &Points) -> bool {
         let (pack, place) = split(lane);
-        self.bends[pack].points.iter().all(|p| points.motion(p[place].vertex()) != Motion::Awake)
+        self.bends[pack].points.iter().all(|p| points.motion_at(p[place]) != Motion::Awake)
     }
 
     /// Whether both vertices that `lane`'s length refers to are still.
     pub fn length_is_still(&self, lane: u32, points: &Points) -> bool {
         let (pack, place) = split(lane);
-        self.lengths[pack].points.iter().all(|p| points.motion(p[place].vertex()) != Motion::Awake)
+        self.lengths[pack].points.iter().all(|p| points.motion_at(p[place]) != Motion::Awake)
     }
 
     /// Narrows all targets by `step`, down to `limit` below where they began (radians).
@@ -187,8 +190,8 @@ impl Region {
     }
 
     pub(super) fn sweep_bends(&self, points: &mut Points, kernels: &Kernels) {
-        // SAFETY: kernels are those of this CPU, and `point_of` let only points into the packs that there are; their
-        // number never falls.
+        // SAFETY: kernels are those of this CPU, and only places of points went into packs; their number never
+        // falls.
         unsafe { (kernels.sweep_bends)(points.now_mut().as_mut_ptr(), &self.bends) }
     }
 
@@ -208,10 +211,18 @@ impl Region {
     }
 
     /// Removes a pack of bends. `taken` gets what it held; the owners and lanes of those that moved go to `moved`.
-    pub fn dissolve_bends(&mut self, pack: usize, taken: &mut Vec<(u32, BendLane)>, mut moved: impl FnMut(u32, u32)) {
+    pub fn dissolve_bends(
+        &mut self,
+        pack: usize,
+        points: &Points,
+        taken: &mut Vec<(u32, BendLane)>,
+        mut moved: impl FnMut(u32, u32),
+    ) {
         let first = (pack * LANES) as u32;
         taken.clear();
-        taken.extend(self.bend_slots.owners(pack).map(|(place, owner)| (owner, self.bend(first + place as u32))));
+        taken.extend(
+            self.bend_slots.owners(pack).map(|(place, owner)| (owner, self.bend(first + place as u32, points))),
+        );
         for place in 0..LANES as u32 {
             if self.bend_slots.is_used(first + place) {
                 self.bend_slots.release(first + place);
@@ -230,12 +241,15 @@ impl Region {
     pub fn dissolve_lengths(
         &mut self,
         pack: usize,
+        points: &Points,
         taken: &mut Vec<(u32, LengthLane)>,
         mut moved: impl FnMut(u32, u32),
     ) {
         let first = (pack * LANES) as u32;
         taken.clear();
-        taken.extend(self.length_slots.owners(pack).map(|(place, owner)| (owner, self.length(first + place as u32))));
+        taken.extend(
+            self.length_slots.owners(pack).map(|(place, owner)| (owner, self.length(first + place as u32, points))),
+        );
         for place in 0..LANES as u32 {
             if self.length_slots.is_used(first + place) {
                 self.length_slots.release(first + place);
@@ -260,10 +274,4 @@ fn sparse(slots: &Slots) -> Option<usize> {
 
 fn split(lane: u32) -> (usize, usize) {
     (lane as usize / LANES, lane as usize % LANES)
-}
-
-/// The point of a vertex; the null point for one that does not exist, so that the kernels may trust every index.
-fn point_of(v: u32, points: &Points) -> Place {
-    debug_assert!((v as usize) < points.len());
-    if (v as usize) < points.len() { Place::of(v as usize) } else { Place::NULL }
 }

@@ -1,5 +1,7 @@
 //! Whole runs: invariants at every step, determinism, independence of the step size, shares in their bands.
 
+mod solvers;
+
 use bevy_math::Vec3;
 
 use super::*;
