@@ -43,24 +43,9 @@ pub struct BendConstraint {
 impl BendConstraint {
     /// A constraint on points whose rest positions are `rest`, with its target at `angle`.
     pub fn new(half_edge: HalfEdgeId, points: [u32; 4], rest: [Vec3; 4], angle: f32) -> Self {
-        let [p1, p2, p3, p4] = rest;
-        let middle = (p1 + p2) * 0.5;
-        let edge = (p2 - p1).normalize_or_zero();
-        let median = |tip: Vec3| (tip - middle).length();
-        // Altitude over median: the sine of the angle between median and edge.
-        let skew = |tip: Vec3| {
-            let median = (tip - middle).normalize_or_zero();
-            median.cross(edge).length()
-        };
-        let mut constraint = Self {
-            half_edge,
-            points,
-            skew: [skew(p3), skew(p4)],
-            rest_medians: [median(p3), median(p4)],
-            start: angle,
-            target: angle,
-            reach: [0.0; 2],
-        };
+        let (skew, rest_medians) = shape_at_rest(rest);
+        let mut constraint =
+            Self { half_edge, points, skew, rest_medians, start: angle, target: angle, reach: [0.0; 2] };
         constraint.set_target(angle);
         constraint
     }
@@ -87,6 +72,19 @@ impl BendConstraint {
     pub fn corrections(&self, p: [Vec3; 4], w: [f32; 4]) -> Option<[Vec3; 4]> {
         bend_corrections(p, w, self.reach, self.rest_medians)
     }
+}
+
+/// Altitude over median of both wings of a pair at rest, in 0..=1, and the lengths of their medians.
+pub(super) fn shape_at_rest([p1, p2, p3, p4]: [Vec3; 4]) -> ([f32; 2], [f32; 2]) {
+    let (middle, edge) = ((p1 + p2) * 0.5, p2 - p1);
+    let medians = [p3 - middle, p4 - middle];
+    let lengths = medians.map(length);
+    // Altitude over median: the sine of the angle between median and edge.
+    let sine = |i: usize| {
+        let product = length(edge) * lengths[i];
+        if product > 0.0 { length(medians[i].cross(edge)) / product } else { 0.0 }
+    };
+    ([sine(0), sine(1)], lengths)
 }
 
 /// Corrections of the four points of a bend constraint, with `reach` and `rest_medians` as in

@@ -6,6 +6,7 @@
 
 use super::{
     BendConstraint, LengthConstraint, SolverQuality,
+    bend::shape_at_rest,
     packed::{BendLane, Blocked, LengthLane, Motion, Points, Region, SimdLevel},
     regions::Layout,
 };
@@ -163,6 +164,9 @@ impl FilmConstraints {
 
     /// The region whose packs hold what `h` carries. Duplicates are in the region of their vertex, so it stays.
     fn region_index(&self, topology: &Topology, h: HalfEdgeId) -> usize {
+        if self.regions.len() == 1 {
+            return 0;
+        }
         self.region_of[topology.original(topology.origin(h)).index()] as usize
     }
 
@@ -187,9 +191,7 @@ impl FilmConstraints {
         if self.bend_lanes[carrier.index()] != NONE || !mesh.topology.is_live(carrier.face()) {
             return;
         }
-        // A face folded to nothing has no angle now; its rest angle is what it comes from.
-        let angle =
-            mesh.geometry.dihedral(&mesh.topology, carrier).unwrap_or(mesh.geometry.rest_dihedrals[carrier.index()]);
+        let angle = angle_now(mesh, carrier);
         self.angles[carrier.index()] = [angle; 2];
         self.bend_lanes[carrier.index()] = PARKED;
         self.counts[1] += 1;
@@ -507,6 +509,15 @@ fn for_edges_at(topology: &Topology, v: VertexId, mut with: impl FnMut(HalfEdgeI
             with(topology.bound_twin(side).map_or(side, |twin| twin.min(side)));
         }
     }
+}
+
+/// Dihedral angle now of the bound edge that `h` carries. A face folded to nothing has none; its rest angle is what it
+/// comes from, and it is also that of a pair that has not moved.
+fn angle_now(mesh: &FilmMesh, h: HalfEdgeId) -> f32 {
+    let (topology, geometry) = (&mesh.topology, &mesh.geometry);
+    let rest = geometry.rest_dihedrals[h.index()];
+    let moved = |&v: &u32| geometry.positions[v as usize] != geometry.rest_positions[v as usize];
+    if bend_points(topology, h).iter().any(moved) { geometry.dihedral(topology, h).unwrap_or(rest) } else { rest }
 }
 
 /// p1, p2, p3, p4 of the bound edge that `h` carries.

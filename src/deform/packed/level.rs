@@ -18,7 +18,7 @@ pub enum SimdLevel {
     Sse2,
     /// AVX2.
     Avx2,
-    /// AVX-512F.
+    /// AVX-512 F and VL.
     Avx512,
 }
 
@@ -35,7 +35,9 @@ impl SimdLevel {
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => std::arch::is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => std::arch::is_x86_feature_detected!("avx512f"),
+            Self::Avx512 => {
+                std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl")
+            }
             #[cfg(not(target_arch = "x86_64"))]
             _ => false,
         }
@@ -118,7 +120,7 @@ impl Kernels {
             #[cfg(target_arch = "x86_64")]
             SimdLevel::Avx2 => kernels_with!(lanes::pair::Pair<lanes::avx2::Avx2>, "avx2"),
             #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx512 => kernels_with!(lanes::pair::Pair<lanes::avx512::Avx512>, "avx512f"),
+            SimdLevel::Avx512 => kernels_with!(lanes::pair::Pair<lanes::avx512::Avx512>, "avx512f,avx512vl"),
             #[cfg(target_arch = "aarch64")]
             SimdLevel::Neon => kernels_with!(lanes::neon::Neon),
             _ => kernels_with!(lanes::scalar::Scalar),
