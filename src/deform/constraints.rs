@@ -29,8 +29,6 @@ const PARKED: u32 = u32::MAX - 1;
 pub struct FilmConstraints {
     pub(super) points: Points,
     pub(super) regions: Vec<Region>,
-    /// Region of each vertex.
-    region_of: Vec<u16>,
     /// Lane of the constraint that each half-edge carries.
     length_lanes: Vec<u32>,
     bend_lanes: Vec<u32>,
@@ -60,7 +58,6 @@ impl FilmConstraints {
         Self {
             points: Points::new(&geometry.rest_positions, &geometry.rest_normals, geometry.mean_edge, &layout),
             regions: vec![Region::default(); layout.regions],
-            region_of: layout.region_of,
             length_lanes: vec![NONE; half_edges],
             bend_lanes: vec![NONE; half_edges],
             angles: vec![[0.0; 2]; half_edges],
@@ -105,9 +102,14 @@ impl FilmConstraints {
         self.points.sweep_lengths(&self.regions, level);
     }
 
-    /// Vertices that move, in the order in which they began to.
-    pub fn awake(&self) -> impl ExactSizeIterator<Item = VertexId> + '_ {
+    /// Vertices that move.
+    pub fn awake(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.points.awake().map(VertexId::new)
+    }
+
+    /// Number of vertices that move.
+    pub fn awake_count(&self) -> usize {
+        self.points.awake_count()
     }
 
     /// What `v` does.
@@ -167,7 +169,7 @@ impl FilmConstraints {
         if self.regions.len() == 1 {
             return 0;
         }
-        self.region_of[topology.original(topology.origin(h)).index()] as usize
+        self.points.region_of(topology.origin(h).index())
     }
 
     /// Puts a length constraint on the edge of `h`, or on `h` alone if the edge is torn; none twice.
@@ -244,9 +246,8 @@ impl FilmConstraints {
     }
 
     /// A vertex was appended: a copy of `kept`.
-    pub(super) fn duplicate(&mut self, topology: &Topology, kept: VertexId) {
-        let region = self.region_of[topology.original(kept).index()];
-        self.points.duplicate(kept.index(), region as usize);
+    pub(super) fn duplicate(&mut self, kept: VertexId) {
+        self.points.duplicate(kept.index());
         self.rest.append(kept.index());
     }
 
@@ -316,15 +317,12 @@ impl FilmConstraints {
         if self.bend_lanes[h.index()] != PARKED {
             return;
         }
-        let bend = self.bend_at_rest(mesh, h);
+        let vertices = bend_points(&mesh.topology, h);
+        let (skews, medians) = shape_at_rest(vertices.map(|v| mesh.geometry.rest_positions[v as usize]));
         let unit = self.points.unit();
+        let medians = medians.map(|median| (median / unit) * (median / unit));
         let [start, target] = self.angles[h.index()];
-        let medians = bend.rest_medians.map(|median| (median / unit) * (median / unit));
-        self.place_bend(
-            &mesh.topology,
-            h,
-            &BendLane { vertices: bend.points, skews: bend.skew, medians, start, target },
-        );
+        self.place_bend(&mesh.topology, h, &BendLane { vertices, skews, medians, start, target });
     }
 
     fn place_bend(&mut self, topology: &Topology, h: HalfEdgeId, bend: &BendLane) {

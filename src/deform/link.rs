@@ -24,7 +24,7 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
             // A duplicate's state is that of its vertex: it has separated, in this step or before.
             TearEnd::Split { kept, .. } => {
                 constraints.wake(mesh, kept);
-                constraints.duplicate(topology, kept);
+                constraints.duplicate(kept);
             }
         }
     }

@@ -67,6 +67,7 @@ impl FilmConstraints {
     /// A tick: puts to sleep what has come to rest, and wakes what is disturbed. `limit` is that of the targets, in radians.
     pub(super) fn doze(&mut self, mesh: &FilmMesh, loose: &LoosePieces, limit: f32) {
         let topology = &mesh.topology;
+        self.points.sort();
         let mut rest = std::mem::take(&mut self.rest);
         let least = QUIET * mesh.geometry.mean_edge;
         rest.disturbed.clear();

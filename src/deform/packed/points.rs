@@ -2,7 +2,10 @@
 
 use bevy_math::Vec3;
 
-use super::level::{Kernels, SimdLevel};
+use super::{
+    Region,
+    level::{Kernels, SimdLevel},
+};
 use crate::deform::regions::Layout;
 
 /// Position (x, y, z) and inverse mass of a point; or unit normal and distance from the origin of a plane.
@@ -11,7 +14,7 @@ use crate::deform::regions::Layout;
 pub struct Point(pub(super) [f32; 4]);
 
 /// Where a point lies: its offset in bytes, as scaling an index by 16 costs an instruction each time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(transparent)]
 pub(super) struct Place(u32);
 
@@ -76,9 +79,34 @@ pub struct Points {
     /// Plane at rest: nothing goes below (VC 5).
     planes: Vec<Point>,
     motions: Vec<Motion>,
-    /// Awake points in the order in which they woke, padded with the null point to whole groups.
-    awake: Vec<Place>,
-    awake_count: usize,
+    /// Region of each vertex.
+    region_of: Vec<u16>,
+    /// Awake points of each region.
+    awake: Vec<Awake>,
+}
+
+/// The awake points of a region.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Awake {
+    /// Padded with the null point to whole groups. In the order of memory, but for those that woke since the last tick.
+    places: Vec<Place>,
+    count: usize,
+    sorted: bool,
+}
+
+impl Awake {
+    fn push(&mut self, place: Place) {
+        self.places.truncate(self.count);
+        self.places.push(place);
+        self.count += 1;
+        self.sorted = false;
+        self.pad();
+    }
+
+    fn pad(&mut self) {
+        self.places.truncate(self.count);
+        self.places.resize(self.count.next_multiple_of(GROUP), Place::NULL);
+    }
 }
 
 impl Points {
@@ -92,6 +120,8 @@ impl Points {
             places: vec![Place::NULL; rest.len()],
             motions: vec![Motion::Attached; rest.len()],
             room: vec![[0; 2]; layout.regions],
+            region_of: layout.region_of.clone(),
+            awake: vec![Awake::default(); layout.regions],
             ..Self::default()
         };
         points.push(NO_VERTEX, Point::default(), Point::default());
@@ -157,18 +187,26 @@ impl Points {
         xyz(self.now[self.places[v].index()]) * self.unit
     }
 
-    /// Awake vertices, in the order in which they woke.
-    pub fn awake(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.awake[..self.awake_count].iter().map(|&place| self.vertex(place))
+    /// Region of vertex `v`. That of a duplicate is its vertex's.
+    #[inline]
+    pub fn region_of(&self, v: usize) -> usize {
+        self.region_of[v] as usize
+    }
+
+    /// Awake vertices.
+    pub fn awake(&self) -> impl Iterator<Item = usize> + '_ {
+        self.awake.iter().flat_map(|awake| &awake.places[..awake.count]).map(|&place| self.vertex(place))
     }
 
     /// Number of awake vertices.
     pub fn awake_count(&self) -> usize {
-        self.awake_count
+        self.awake.iter().map(|awake| awake.count).sum()
     }
 
-    /// Appends a duplicate of vertex `kept`, which lies in `region`.
-    pub fn duplicate(&mut self, kept: usize, region: usize) {
+    /// Appends a duplicate of vertex `kept`.
+    pub fn duplicate(&mut self, kept: usize) {
+        let region = self.region_of(kept);
+        self.region_of.push(region as u16);
         let from = self.places[kept].index();
         let (at, before, plane) = (self.now[from], self.before[from], self.planes[from]);
         let v = self.places.len();
@@ -198,10 +236,7 @@ impl Points {
         self.motions[v] = Motion::Awake;
         let place = self.places[v];
         self.now[place.index()].0[3] = 1.0;
-        self.awake.truncate(self.awake_count);
-        self.awake.push(place);
-        self.awake_count += 1;
-        self.awake.resize(self.awake_count.next_multiple_of(GROUP), Place::NULL);
+        self.awake[self.region_of[v] as usize].push(place);
     }
 
     /// Vertex `v` falls asleep; to be followed by [`Self::settle`].
@@ -214,23 +249,33 @@ impl Points {
         self.motions[v] = Motion::Gone;
     }
 
-    /// Takes the vertices that no longer move off the list of awake ones.
-    pub fn settle(&mut self) {
-        let mut kept = 0;
-        for i in 0..self.awake_count {
-            let place = self.awake[i];
-            if self.motion_at(place) == Motion::Awake {
-                self.awake[kept] = place;
-                kept += 1;
-            } else {
-                let point = &mut self.now[place.index()];
-                point.0[3] = 0.0;
-                self.before[place.index()] = *point;
-            }
+    /// Brings the lists of awake points into the order of memory. What is done to each is the same in any order.
+    pub fn sort(&mut self) {
+        for awake in self.awake.iter_mut().filter(|awake| !awake.sorted) {
+            awake.places[..awake.count].sort_unstable();
+            awake.sorted = true;
         }
-        self.awake_count = kept;
-        self.awake.truncate(kept);
-        self.awake.resize(kept.next_multiple_of(GROUP), Place::NULL);
+    }
+
+    /// Takes the vertices that no longer move off the lists of awake ones.
+    pub fn settle(&mut self) {
+        let Self { now, before, motions, vertices, awake, .. } = self;
+        for awake in awake {
+            let mut kept = 0;
+            for i in 0..awake.count {
+                let place = awake.places[i];
+                if motions[vertices[place.index()] as usize] == Motion::Awake {
+                    awake.places[kept] = place;
+                    kept += 1;
+                } else {
+                    let point = &mut now[place.index()];
+                    point.0[3] = 0.0;
+                    before[place.index()] = *point;
+                }
+            }
+            awake.count = kept;
+            awake.pad();
+        }
     }
 
     /// Puts vertex `v` to `position` and its last place to `before`, both in the film's unit.
@@ -254,19 +299,20 @@ impl Points {
         }
     }
 
-    /// Momentum and half-space of the awake points.
-    pub(super) fn advance(&mut self, kernels: &Kernels, keep: f32) {
+    /// Momentum and half-space of the awake points of a region.
+    fn advance(&mut self, kernels: &Kernels, region: usize, keep: f32) {
+        let places = &self.awake[region].places;
         // SAFETY: kernels are those of this CPU, and awake points exist.
         unsafe {
             let (now, before) = (self.now.as_mut_ptr(), self.before.as_mut_ptr());
-            (kernels.advance)(now, before, self.planes.as_ptr(), &self.awake, keep);
+            (kernels.advance)(now, before, self.planes.as_ptr(), places, keep);
         }
     }
 
-    /// Half-space of the awake points.
-    pub(super) fn project(&mut self, kernels: &Kernels) {
+    /// Half-space of the awake points of a region.
+    fn project(&mut self, kernels: &Kernels, region: usize) {
         // SAFETY: as above.
-        unsafe { (kernels.project)(self.now.as_mut_ptr(), self.planes.as_ptr(), &self.awake) }
+        unsafe { (kernels.project)(self.now.as_mut_ptr(), self.planes.as_ptr(), &self.awake[region].places) }
     }
 
     /// The points, for the sweeps.
@@ -274,34 +320,34 @@ impl Points {
         &mut self.now
     }
 
-    /// One plain or accelerated sweep over `regions` (VC 4.1): momentum, bends, lengths, each followed by the half-space.
-    pub fn sweep(&mut self, regions: &[super::Region], level: SimdLevel, keep: f32) {
+    /// One plain or accelerated sweep over `regions` (VC 4.1), one region after the other, as its points are in the cache
+    /// then: momentum, bends, lengths, the half-space after each of the first two.
+    pub fn sweep(&mut self, regions: &[Region], level: SimdLevel, keep: f32) {
         let kernels = Kernels::of(level);
-        self.advance(&kernels, keep);
-        for region in regions {
+        for (i, region) in regions.iter().enumerate() {
+            self.advance(&kernels, i, keep);
             region.sweep_bends(self, &kernels);
-        }
-        self.project(&kernels);
-        for region in regions {
+            self.project(&kernels, i);
             region.sweep_lengths(self, &kernels);
         }
     }
 
     /// Bends alone.
-    pub fn sweep_bends(&mut self, regions: &[super::Region], level: SimdLevel) {
+    pub fn sweep_bends(&mut self, regions: &[Region], level: SimdLevel) {
         let kernels = Kernels::of(level);
         regions.iter().for_each(|region| region.sweep_bends(self, &kernels));
     }
 
     /// Lengths alone.
-    pub fn sweep_lengths(&mut self, regions: &[super::Region], level: SimdLevel) {
+    pub fn sweep_lengths(&mut self, regions: &[Region], level: SimdLevel) {
         let kernels = Kernels::of(level);
         regions.iter().for_each(|region| region.sweep_lengths(self, &kernels));
     }
 
     /// The half-space after the last sweep of a step.
     pub fn finish(&mut self, level: SimdLevel) {
-        self.project(&Kernels::of(level));
+        let kernels = Kernels::of(level);
+        (0..self.awake.len()).for_each(|region| self.project(&kernels, region));
     }
 }
 
