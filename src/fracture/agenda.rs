@@ -21,6 +21,9 @@ pub(super) struct Agenda {
     basis: Option<Basis>,
     /// Room for what is due.
     due: Vec<u32>,
+    /// How many elements were due so far.
+    #[cfg(test)]
+    pub looks: u64,
 }
 
 impl Agenda {
@@ -62,6 +65,10 @@ impl Agenda {
 
     /// Takes back the room of [`Agenda::take_due`] or [`Agenda::restart`].
     pub fn give_back(&mut self, due: Vec<u32>) {
+        #[cfg(test)]
+        {
+            self.looks += due.len() as u64;
+        }
         self.due = due;
     }
 

@@ -82,8 +82,26 @@ fn candidate(
     Some(Candidate { edge, alignment: balance.alignment, overload })
 }
 
+/// What [`tear`] does, by a look at every edge.
+#[cfg(test)]
+pub(super) fn tear_everywhere(
+    mesh: &mut FilmMesh,
+    forces: &mut FilmForces,
+    settings: &TearingSettings,
+    gravity: Vec3,
+    changes: &mut FilmChanges,
+    scratch: &mut FractureScratch,
+) {
+    scratch.candidates.clear();
+    scratch.candidates.extend(mesh.topology.all_edges().filter_map(|edge| {
+        let balance = Balance::new(mesh, forces, settings, edge)?;
+        Some(Candidate { edge, alignment: balance.alignment, overload: balance.overload()? })
+    }));
+    tear_in_order(mesh, forces, settings, gravity, changes, scratch);
+}
+
 /// Tears the candidates, best first, as far as they are still overloaded when their turn comes.
-pub(super) fn tear_in_order(
+fn tear_in_order(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
     settings: &TearingSettings,

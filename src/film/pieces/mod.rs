@@ -6,6 +6,8 @@
 
 mod flood;
 mod loose;
+#[cfg(test)]
+mod tests;
 mod track;
 
 pub use flood::PieceScratch;

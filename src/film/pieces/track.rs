@@ -98,8 +98,9 @@ impl FilmPieces {
         }
     }
 
-    /// Brings the list of loose pieces up to date, after tears, separations and removals of whole pieces. Looks at
-    /// those pieces that changed, and copies the others.
+    /// Brings the list of loose pieces up to date. Looks at those pieces that tears and separations changed, and copies
+    /// the others; pieces that were removed without such a change are to be taken off by
+    /// [`LoosePieces::retain_live`].
     pub fn renew(&mut self, topology: &Topology, loose: &mut LoosePieces, scratch: &mut PieceScratch) {
         if self.changed.is_empty() {
             return;

@@ -1,5 +1,7 @@
 //! Each equation and rule of the fracture stages against an independent derivation.
 
+mod foresight;
+
 use core::f32::consts::PI;
 
 use bevy_math::Vec3;
