@@ -108,9 +108,7 @@ fn crack(app: &mut App, film: Entity, ends: [Vec3; 2]) {
         let around = mesh.topology.fan(v).flat_map(|h| [Some(h), mesh.topology.bound_twin(h.previous())]).flatten();
         let to_end = |h: &HalfEdgeId| rest(mesh.topology.target(*h)).distance(rest(end));
         let h = around.min_by(|a, b| to_end(a).total_cmp(&to_end(b))).expect("edges");
-        for side in [Some(h), mesh.topology.rest_twin(h)].into_iter().flatten() {
-            forces.binding[side.index()] = 0.0;
-        }
+        forces.set_binding(&mesh.topology, h, 0.0);
         v = mesh.topology.target(h);
     }
 }

@@ -19,13 +19,9 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
         constraints.free(v);
     }
     for end in changes.torn_ends.iter().flatten() {
-        match *end {
-            TearEnd::Opened(v) => constraints.wake(mesh, v),
-            // A duplicate's state is that of its vertex: it has separated, in this step or before.
-            TearEnd::Split { kept, .. } => {
-                constraints.wake(mesh, kept);
-                constraints.duplicate(kept);
-            }
+        // A duplicate's state is that of its vertex: it has separated, in this step or before.
+        if let TearEnd::Split { kept, .. } = *end {
+            constraints.duplicate(kept);
         }
     }
     for &h in &changes.torn {
@@ -40,6 +36,15 @@ pub fn follow_fracture(mesh: &FilmMesh, constraints: &mut FilmConstraints, chang
             for side in h.face().half_edges() {
                 constraints.refresh(topology, topology.edge(side));
                 constraints.refresh(topology, side);
+            }
+        }
+    }
+    for end in changes.torn_ends.iter().flatten() {
+        match *end {
+            TearEnd::Opened(v) => constraints.wake(mesh, v),
+            TearEnd::Split { kept, duplicate } => {
+                constraints.wake(mesh, kept);
+                constraints.wake(mesh, duplicate);
             }
         }
     }

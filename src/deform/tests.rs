@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::{bend::bend_corrections, length::length_corrections, plain::above_plane, rigid, *};
 use crate::{
-    film::{FilmChanges, FilmMesh, HalfEdgeId, LoosePieces, PieceScratch, signed_dihedral},
+    film::{FilmChanges, FilmMesh, HalfEdgeId, LoosePieces, PieceScratch, TearEnd, signed_dihedral},
     settings::DeformSettings,
 };
 
@@ -329,4 +329,47 @@ fn loose_pieces_neither_drift_nor_spin() {
     rigid::put_back(&mut mesh.geometry, &loose, &mut constraints, &kept);
     let grown = mesh.geometry.positions.iter().zip(&before).all(|(p, q)| p.distance(*q * 1.5) < 1e-3);
     assert!(grown);
+}
+
+/// Tears the edge of `h` and notes it.
+fn tear(mesh: &mut FilmMesh, h: HalfEdgeId, changes: &mut FilmChanges) {
+    let ends = mesh.tear(h, Vec3::NEG_Y).unwrap();
+    changes.torn.push(h);
+    changes.torn_ends.push(ends);
+    changes.duplicates.extend(ends.iter().filter_map(|end| match end {
+        TearEnd::Split { duplicate, .. } => Some(*duplicate),
+        TearEnd::Opened(_) => None,
+    }));
+}
+
+#[test]
+fn cracks_through_a_sleeping_film_wake_it() {
+    let mut mesh = disk(6);
+    let mut constraints = FilmConstraints::new(&mesh);
+    let mut changes = FilmChanges::default();
+    changes.separated.extend(mesh.topology.all_vertices());
+    follow_fracture(&mesh, &mut constraints, &changes);
+    let mut loose = LoosePieces::default();
+    loose.find(&mesh.topology, &mut PieceScratch::default(), |_| false);
+    let settings = DeformSettings { bend_limit: 0.0, ..DeformSettings::default() };
+    let pace = SolvePace { dt: 0.01, sweeps: 1, momentum: 0.0, tick: true, quality: SolverQuality::Default };
+    for _ in 0..4 {
+        bend_film(&mut mesh, &mut constraints, &loose, &settings, pace, &mut changes, &mut BendScratch::default());
+    }
+    assert_eq!((constraints.awake_count(), constraints.active_counts()), (0, [0, 0]));
+    constraints.validate(&mesh, |_| false).unwrap();
+
+    // Many edges in one step, so that edges at a torn vertex lead to vertices that later tears append.
+    changes.clear();
+    let edges: Vec<HalfEdgeId> = mesh.topology.all_edges().filter(|h| mesh.topology.bound_twin(*h).is_some()).collect();
+    for h in edges.into_iter().step_by(3) {
+        if !mesh.topology.is_torn(h) {
+            tear(&mut mesh, h, &mut changes);
+        }
+    }
+    assert!(changes.duplicates.len() > 20);
+    follow_fracture(&mesh, &mut constraints, &changes);
+    mesh.validate().unwrap();
+    constraints.validate(&mesh, |_| false).unwrap();
+    assert!(constraints.awake_count() > changes.duplicates.len());
 }

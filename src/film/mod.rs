@@ -19,7 +19,7 @@ pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;
 pub use geometry::{Geometry, signed_dihedral};
 pub use handles::{FaceId, HalfEdgeId, VertexId};
-pub use pieces::{LoosePiece, LoosePieces, PieceScratch};
+pub use pieces::{FilmPieces, LoosePiece, LoosePieces, PieceScratch};
 pub use topology::{FaceFate, Fan, Topology, TopologyError};
 pub use validate::InvariantError;
 

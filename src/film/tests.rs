@@ -39,6 +39,26 @@ pub(crate) fn sphere(levels: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
+/// A grid whose left and right sides are one, a tube with two borders; or also its ends, a torus.
+pub(crate) fn wrapped(w: u32, h: u32, ends_too: bool) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    use bevy_math::ops;
+    use core::f32::consts::TAU;
+    let rows = if ends_too { h } else { h + 1 };
+    let place = |x: u32, y: u32| {
+        let (a, b) = (TAU * x as f32 / w as f32, TAU * y as f32 / rows as f32);
+        let bend = if ends_too { b } else { 0.0 };
+        let out = 3.0 + ops::cos(a);
+        Vec3::new(out * ops::cos(bend), out * ops::sin(bend) + if ends_too { 0.0 } else { y as f32 }, ops::sin(a))
+    };
+    let positions = (0..rows).flat_map(|y| (0..w).map(move |x| place(x, y))).collect();
+    let at = move |x: u32, y: u32| (y % rows) * w + x % w;
+    let triangles = (0..h)
+        .flat_map(|y| (0..w).map(move |x| (x, y)))
+        .flat_map(|(x, y)| [[at(x, y), at(x + 1, y), at(x + 1, y + 1)], [at(x, y), at(x + 1, y + 1), at(x, y + 1)]])
+        .collect();
+    (positions, triangles)
+}
+
 /// Both meshes as shells of one film.
 pub(crate) fn shells(a: (Vec<Vec3>, Vec<[u32; 3]>), b: (Vec<Vec3>, Vec<[u32; 3]>)) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let offset = a.0.len() as u32;
@@ -51,10 +71,12 @@ fn film((positions, triangles): (Vec<Vec3>, Vec<[u32; 3]>)) -> FilmMesh {
     FilmMesh::new(positions, &triangles).expect("test meshes are manifold")
 }
 
-fn any_mesh() -> impl Strategy<Value = FilmMesh> {
+/// Sheets, tubes, spheres, tori and films of two shells.
+pub(crate) fn any_mesh() -> impl Strategy<Value = FilmMesh> {
     prop_oneof![
         (1u32..6, 1u32..6).prop_map(|(w, h)| film(grid(w, h))),
         (0u32..3).prop_map(|l| film(sphere(l))),
+        (3u32..7, 3u32..7, any::<bool>()).prop_map(|(w, h, ends_too)| film(wrapped(w, h, ends_too))),
         (1u32..4, 0u32..2).prop_map(|(w, l)| film(shells(grid(w, 3), sphere(l)))),
     ]
 }

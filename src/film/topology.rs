@@ -275,6 +275,17 @@ impl Topology {
         f.half_edges().iter().any(|&h| self.torn[h.index()])
     }
 
+    /// How many of the two faces of `h`'s edge have a torn edge; 0 where the edge is not between two faces any more.
+    #[inline]
+    pub fn torn_faces(&self, h: HalfEdgeId) -> u8 {
+        match self.bound_twin(h) {
+            Some(twin) if self.is_live(h.face()) => {
+                u8::from(self.has_torn_edge(h.face())) + u8::from(self.has_torn_edge(twin.face()))
+            }
+            _ => 0,
+        }
+    }
+
     /// The half-edges that start at `v`, one a face, counter-clockwise. Empty when no face is left.
     #[inline]
     pub fn fan(&self, v: VertexId) -> Fan<'_> {
@@ -292,6 +303,25 @@ impl Topology {
     #[inline]
     pub fn rest_fan(&self, first: HalfEdgeId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         std::iter::successors(first.get(), move |h| self.rest_twin(h.previous()).filter(|&next| next != first))
+    }
+
+    /// Whether the [fan](Self::fan) of `h`'s start vertex begins at `h`: true of one half-edge a vertex that has faces,
+    /// so vertices of faces can be counted without marks.
+    #[inline]
+    pub fn starts_fan(&self, h: HalfEdgeId) -> bool {
+        self.fans[self.origin(h).index()] == h
+    }
+
+    /// The half-edge after `h` along the border of its piece, where `h` is bound to no other: the way round keeps the
+    /// piece to its left.
+    #[inline]
+    pub(super) fn next_on_border(&self, h: HalfEdgeId) -> HalfEdgeId {
+        let mut next = h.next();
+        // The fan at the end of `h` is open, so this ends.
+        while let Some(twin) = self.bound_twin(next) {
+            next = twin.next();
+        }
+        next
     }
 
     /// Whether the faces at `v` go all the way round it.

@@ -45,6 +45,12 @@ pub enum InvariantError {
     /// A crack tip does not have exactly one torn edge.
     #[error("crack tip {0:?} does not have exactly one torn edge")]
     Tip(VertexId),
+    /// The binding of an edge decays for more or fewer faces than have a torn edge.
+    #[error("the binding of half-edge {0:?} decays at the wrong rate")]
+    Decay(HalfEdgeId),
+    /// What is known of connected pieces is not what a look at the whole film finds.
+    #[error("the connected pieces of the film are not those that are known")]
+    Pieces,
     /// The inverse mass of a vertex does not agree with whether it is attached.
     #[error("vertex {0:?} has the wrong inverse mass")]
     InverseMass(VertexId),

@@ -7,10 +7,17 @@
 //! | tearing | [`tear`] | VC 5.2 |
 //! | stripping | [`strip`] | VC 5.3 |
 //!
-//! Every stage is a function on borrowed parts and writes what it did into [`FilmChanges`].
+//! Every stage is a function on borrowed parts and writes what it did into [`FilmChanges`]. Each does work in proportion
+//! to what happens, not to the film's size: what ages everywhere at one rate is kept once ([`FilmForces`]), what will
+//! happen is predicted, and pieces are followed edit by edit.
 
 mod adhesion;
+mod agenda;
+mod aging;
+mod binding;
 mod forces;
+mod foresight;
+mod overload;
 mod separation;
 mod stripping;
 mod tearing;
@@ -19,10 +26,11 @@ mod tearing;
 mod tests;
 
 pub use adhesion::adhesion_field;
-pub use forces::{FilmForces, age_forces};
+pub use aging::age_forces;
+pub use forces::FilmForces;
 pub use separation::{bending_force, separate, separation_age, sigmoid};
 pub use stripping::strip;
-pub use tearing::{TearScratch, tear};
+pub use tearing::{FractureScratch, tear};
 
 #[cfg(doc)]
 use crate::film::FilmChanges;

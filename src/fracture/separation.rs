@@ -20,14 +20,7 @@ pub fn sigmoid(phi: f32, gamma: f32) -> f32 {
 /// its one-ring exerts one, border and torn edges none. `gain` is k.
 #[inline]
 pub fn bending_force(mesh: &FilmMesh, forces: &FilmForces, v: VertexId, gain: f32) -> f32 {
-    let mut sum = 0.0;
-    for h in mesh.topology.fan(v) {
-        let opposite = h.next();
-        if !mesh.topology.is_torn(opposite) {
-            sum += forces.contraction[h.face().index()] * forces.bend_weights[opposite.index()];
-        }
-    }
-    gain * sum
+    OneRing::new(mesh, forces, v, gain).force
 }
 
 /// The age at which a vertex of an untouched one-ring separates, as the root of the linear equation
@@ -43,6 +36,9 @@ pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, d
 
 /// Separates every attached vertex on which the sum of bending forces exceeds its adhesion; it never attaches
 /// again. `age` is the film's age at the end of this step.
+///
+/// Looks only at vertices that may be due. Adhesion and bending force are linear in age while nothing tears, and what
+/// tears or falls only ever takes bending force away, so a prediction can be too early but never too late.
 pub fn separate(
     mesh: &FilmMesh,
     forces: &mut FilmForces,
@@ -50,13 +46,85 @@ pub fn separate(
     age: f32,
     changes: &mut FilmChanges,
 ) {
-    for v in mesh.topology.all_vertices() {
-        if !forces.is_attached(v) || !mesh.topology.has_faces(v) {
+    let topology = &mesh.topology;
+    forces.find_pieces(topology);
+    let gain = settings.bending.gain;
+    // Duplicates have separated, so the agenda is of original vertices.
+    let elements = topology.original_vertex_count();
+    let basis = forces.foresight.basis_of_separations(gain, forces.gamma);
+    let agenda = &mut forces.foresight.separations;
+    let mut due = if agenda.rests_on(basis, elements) {
+        agenda.take_due()
+    } else {
+        agenda.restart(basis, elements, 0..elements as u32)
+    };
+    due.sort_unstable();
+    for &v in &due {
+        let v = VertexId(v);
+        if !forces.is_attached(v) || !topology.has_faces(v) {
             continue;
         }
-        if bending_force(mesh, forces, v, settings.bending.gain) > forces.adhesion[v.index()] {
+        let ring = OneRing::new(mesh, forces, v, gain);
+        if ring.force > forces.adhesion(v) {
             forces.separated_age[v.index()] = age;
+            forces.foresight.pieces.vertex_separated(topology, v);
+            forces.touch_edges_at(topology, v);
             changes.separated.push(v);
+        } else {
+            let steps = ring.steps_until_separation(forces, v);
+            forces.foresight.separations.put_off(v.0, steps);
         }
+    }
+    forces.foresight.separations.give_back(due);
+}
+
+/// What the one-ring of a vertex does to it.
+struct OneRing {
+    /// Sum of bending forces.
+    force: f32,
+    /// The same for a contraction of 1 everywhere: sum of k S(phi).
+    lift: f32,
+    /// Number of terms.
+    edges: f32,
+}
+
+impl OneRing {
+    #[inline]
+    fn new(mesh: &FilmMesh, forces: &FilmForces, v: VertexId, gain: f32) -> Self {
+        let (mut force, mut lift, mut edges) = (0.0, 0.0, 0.0);
+        for h in mesh.topology.fan(v) {
+            let opposite = h.next();
+            if !mesh.topology.is_torn(opposite) {
+                let weight = forces.bend_weights[opposite.index()];
+                force += forces.contraction(h.face()) * weight;
+                lift += weight;
+                edges += 1.0;
+            }
+        }
+        Self { force: gain * force, lift: gain * lift, edges }
+    }
+
+    /// In how many steps `v`, which holds now, can separate at the earliest: the root of the linear equation (as in
+    /// [`separation_age`]), with `v` as wet as can be where anything is, less all that rounding may bring forward.
+    fn steps_until_separation(&self, forces: &FilmForces, v: VertexId) -> f64 {
+        let (lift, force, adhesion) = (f64::from(self.lift), f64::from(self.force), f64::from(forces.adhesion(v)));
+        if self.lift == 0.0 || adhesion == f64::INFINITY {
+            return f64::INFINITY;
+        }
+        let base = f64::from(forces.adhesion_bases[v.index()].abs());
+        let rates = forces.foresight.rates;
+        // Each term of a sum may be off by half the last place of the largest, and so may each step while it is wet.
+        let rounding = f64::from(f32::EPSILON * (self.edges + 8.0));
+        let slack = rounding * (force + lift * forces.grown + base + forces.fallen);
+        let mut closing = lift * rates.growth;
+        if adhesion > 0.0 {
+            closing += rates.fall;
+            if rates.wet_fall > 0.0 {
+                closing += rates.wet_fall + f64::from(f32::EPSILON) * base;
+            }
+        }
+        let steps = (adhesion - force - slack) / (closing * (1.0 + rounding));
+        // Nothing closes in: it will hold for as long as that is so.
+        if closing > 0.0 { steps } else { f64::INFINITY }
     }
 }

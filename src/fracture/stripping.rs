@@ -2,26 +2,24 @@
 
 use bevy_math::Vec3;
 
-use super::FilmForces;
+use super::{FilmForces, FractureScratch};
 use crate::{
-    film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh, PieceScratch},
+    film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh},
     settings::StrippingSettings,
 };
 
 /// Removes every face whose half-edges are all torn (at the open border: all its inner edges, once all its
 /// vertices have separated), then every loose piece of up to `fall_faces` faces: nothing holds it, so real
 /// paint would have fallen. Larger loose pieces stay and are remembered, so that bending does not make them
-/// drift. Only this step's tears and separations can change any of it.
+/// drift. Looks only at this step's tears and separations, and at pieces that came loose by them.
 pub fn strip(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
     settings: &StrippingSettings,
     changes: &mut FilmChanges,
-    scratch: &mut PieceScratch,
+    scratch: &mut FractureScratch,
 ) {
-    if changes.torn.is_empty() && changes.separated.is_empty() {
-        return;
-    }
+    forces.find_pieces(&mesh.topology);
     for i in 0..changes.torn.len() {
         let edge = changes.torn[i];
         let twin = mesh.topology.rest_twin(edge);
@@ -35,23 +33,10 @@ pub fn strip(
             strip_if_free(mesh, forces, h.face(), changes);
         }
     }
-    let is_attached = |v: crate::film::VertexId| forces.separated_age[v.index()] == f32::INFINITY;
-    forces.loose.find(&mesh.topology, scratch, is_attached);
-    let mut fallen = false;
-    for piece in forces.loose.iter() {
-        if piece.faces.len() as u32 <= settings.fall_faces {
-            changes.debris.push(debris(mesh, piece.faces));
-            changes.removed.extend_from_slice(piece.faces);
-            mesh.topology.drop_piece(piece.faces);
-            for v in piece.vertices {
-                forces.tips[v.index()] = Vec3::ZERO;
-            }
-            fallen = true;
-        }
-    }
-    if fallen {
-        let is_attached = |v: crate::film::VertexId| forces.separated_age[v.index()] == f32::INFINITY;
-        forces.loose.find(&mesh.topology, scratch, is_attached);
+    forces.foresight.pieces.renew(&mesh.topology, &mut forces.loose, &mut scratch.pieces);
+    if forces.loose.smallest().is_some_and(|faces| faces <= settings.fall_faces) {
+        drop_pieces(mesh, forces, settings.fall_faces, changes);
+        forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);
     }
 }
 
@@ -62,6 +47,22 @@ fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &
         changes.removed.push(f);
         mesh.topology.strip(f);
         debug_assert_eq!(mesh.topology.fate(f), FaceFate::Stripped);
+    }
+}
+
+/// Drops every loose piece of up to `limit` faces.
+fn drop_pieces(mesh: &mut FilmMesh, forces: &mut FilmForces, limit: u32, changes: &mut FilmChanges) {
+    let first = changes.removed.len();
+    for piece in forces.loose.iter().filter(|piece| piece.faces.len() as u32 <= limit) {
+        changes.debris.push(debris(mesh, piece.faces));
+        changes.removed.extend_from_slice(piece.faces);
+        mesh.topology.drop_piece(piece.faces);
+        for v in piece.vertices {
+            forces.tips[v.index()] = Vec3::ZERO;
+        }
+    }
+    for h in changes.removed[first..].iter().flat_map(|f| f.half_edges()) {
+        forces.follow_decay(&mesh.topology, h);
     }
 }
 

@@ -76,7 +76,7 @@ type Edited<'w, 's> = Query<
 /// [`stage::tear`].
 pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
     edit(films, timings, |pace, mesh, forces, changes, scratch| {
-        stage::tear(mesh, forces, changes, &pace.settings, pace.environment.gravity, &mut scratch.tear);
+        stage::tear(mesh, forces, changes, &pace.settings, pace.environment.gravity, &mut scratch.fracture);
         !changes.torn.is_empty()
     });
 }
@@ -84,7 +84,7 @@ pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
 /// [`stage::strip`].
 pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
     edit(films, timings, |pace, mesh, forces, changes, scratch| {
-        stage::strip(mesh, forces, changes, &pace.settings, &mut scratch.pieces);
+        stage::strip(mesh, forces, changes, &pace.settings, &mut scratch.fracture);
         !changes.removed.is_empty()
     });
 }

@@ -6,14 +6,14 @@ use super::FilmState;
 use crate::{film::FaceFate, stain::RustSource};
 
 /// Name of the digest's algorithm and version of its fields.
-pub const DIGEST_ALGORITHM: &str = "blake3-256/film-2";
+pub const DIGEST_ALGORITHM: &str = "blake3-256/film-3";
 
 impl FilmState {
     /// Feeds the state into `hasher`, all numbers little-endian: steps (u64); vertex, face and half-edge
     /// counts (u32 each); for each vertex original (u32), rest position, position (3 f32 each), adhesion,
     /// separation age (f32; infinite while attached), tip direction (3 f32); for each face its three origins
     /// (u32), fate (u8: 0 live, 1 stripped, 2 fallen), contraction (f32); for each half-edge torn (u8),
-    /// binding (f32).
+    /// binding (f32). Forces as they are now, however they are kept.
     ///
     /// Then the stains: for the film and then for the metal wet rust, stained rust, dust and moisture; then
     /// corrosion, exposure to rain and exposure to sun, each of these eleven as its length (u32) and its values
@@ -32,7 +32,7 @@ impl FilmState {
             bytes.extend(topology.original(v).0.to_le_bytes());
             vector(&mut bytes, geometry.rest_positions[v.index()]);
             vector(&mut bytes, geometry.positions[v.index()]);
-            bytes.extend(self.forces.adhesion[v.index()].to_le_bytes());
+            bytes.extend(self.forces.adhesion(v).to_le_bytes());
             bytes.extend(self.forces.separated_age[v.index()].to_le_bytes());
             vector(&mut bytes, self.forces.tips[v.index()]);
         }
@@ -43,11 +43,11 @@ impl FilmState {
                 FaceFate::Stripped => 1,
                 FaceFate::Fallen => 2,
             });
-            bytes.extend(self.forces.contraction[f.index()].to_le_bytes());
+            bytes.extend(self.forces.contraction(f).to_le_bytes());
         }
         for h in topology.all_half_edges() {
             bytes.push(u8::from(topology.is_torn(h)));
-            bytes.extend(self.forces.binding[h.index()].to_le_bytes());
+            bytes.extend(self.forces.binding(topology, h).to_le_bytes());
         }
         let stains = &self.stains;
         let layers =

@@ -5,8 +5,8 @@ use bevy_math::Vec3;
 use super::{FilmClock, Stage, StageTimes};
 use crate::{
     deform::{self, BendScratch, FilmConstraints, SolvePace, SolverQuality},
-    film::{FilmChanges, FilmMesh, InvariantError, PieceScratch, VertexId, build::BuiltFilm},
-    fracture::{self, FilmForces, TearScratch},
+    film::{FilmChanges, FilmMesh, InvariantError, VertexId, build::BuiltFilm},
+    fracture::{self, FilmForces, FractureScratch},
     settings::CoatingSettings,
     stain::{self, Environment, StainFields},
 };
@@ -19,10 +19,8 @@ const PLANE_ROUNDING: f32 = 8.0 * f32::EPSILON;
 /// Buffers of a step, kept between steps. Holds nothing that matters from one step to the next.
 #[derive(Clone, Debug, Default)]
 pub struct StepScratch {
-    /// Of tearing.
-    pub tear: TearScratch,
-    /// Of stripping.
-    pub pieces: PieceScratch,
+    /// Of tearing and stripping.
+    pub fracture: FractureScratch,
     /// Of bending.
     pub bend: BendScratch,
 }
@@ -53,7 +51,7 @@ pub struct FilmState {
 pub mod stage {
     use super::{
         BendScratch, CoatingSettings, Environment, FilmChanges, FilmClock, FilmConstraints, FilmForces, FilmMesh,
-        PieceScratch, SolvePace, SolverQuality, StainFields, TearScratch, Vec3, deform, fracture, stain,
+        FractureScratch, SolvePace, SolverQuality, StainFields, Vec3, deform, fracture, stain,
     };
 
     /// Begins a step: forgets the last one's changes and counts.
@@ -62,8 +60,7 @@ pub mod stage {
         clock.steps += 1;
     }
 
-    /// Forces age (VC 5.1, 5.2).
-    /// Wet paint loses its hold faster.
+    /// Forces age (VC 5.1, 5.2); wet paint loses its hold faster.
     pub fn forces(
         mesh: &FilmMesh,
         forces: &mut FilmForces,
@@ -93,7 +90,7 @@ pub mod stage {
         changes: &mut FilmChanges,
         settings: &CoatingSettings,
         gravity: Vec3,
-        scratch: &mut TearScratch,
+        scratch: &mut FractureScratch,
     ) {
         fracture::tear(mesh, forces, &settings.tearing, gravity, changes, scratch);
     }
@@ -104,7 +101,7 @@ pub mod stage {
         forces: &mut FilmForces,
         changes: &mut FilmChanges,
         settings: &CoatingSettings,
-        scratch: &mut PieceScratch,
+        scratch: &mut FractureScratch,
     ) {
         fracture::strip(mesh, forces, &settings.stripping, changes, scratch);
     }
@@ -204,8 +201,8 @@ impl FilmState {
         times.measure(Stage::Fracture, || {
             stage::forces(mesh, forces, stains, clock, settings);
             stage::separate(mesh, forces, clock, changes, settings);
-            stage::tear(mesh, forces, changes, settings, environment.gravity, &mut scratch.tear);
-            stage::strip(mesh, forces, changes, settings, &mut scratch.pieces);
+            stage::tear(mesh, forces, changes, settings, environment.gravity, &mut scratch.fracture);
+            stage::strip(mesh, forces, changes, settings, &mut scratch.fracture);
             stage::link(mesh, constraints, changes);
         });
         times.measure(Stage::Deformation, || {
@@ -227,17 +224,15 @@ impl FilmState {
 
     /// Checks every invariant of the film, its forces, constraints and stains (the list at the end of the method:
     /// one fan a vertex, twins share their ends, torn implies separated, attached vertices have not moved,
-    /// none below its plane, stripped faces are cut out, tips have one torn edge). For tests and debugging.
+    /// none below its plane, stripped faces are cut out, tips have one torn edge), and what is known of the film beyond its
+    /// state. For tests and debugging.
     ///
     /// # Errors
     /// The first [`InvariantError`] found.
     pub fn validate(&self) -> Result<(), InvariantError> {
         self.mesh.validate()?;
         let (topology, geometry, forces) = (&self.mesh.topology, &self.mesh.geometry, &self.forces);
-        let vertices = topology.vertex_count();
-        if [forces.adhesion.len(), forces.separated_age.len(), forces.tips.len()] != [vertices; 3] {
-            return Err(InvariantError::ArrayLength("forces"));
-        }
+        forces.validate(topology)?;
         for v in topology.all_vertices() {
             let moved = geometry.positions[v.index()] != geometry.rest_positions[v.index()];
             if forces.is_attached(v) && moved {

@@ -52,9 +52,7 @@ fn crack(film: &mut FilmState, from: Vec3, to: Vec3) -> Vec<HalfEdgeId> {
         let distance = |h: HalfEdgeId| rest[film.mesh.topology.target(h).index()].distance(rest[end.index()]);
         let around = film.mesh.topology.fan(v).flat_map(|h| [Some(h), film.mesh.topology.bound_twin(h.previous())]);
         let h = around.flatten().min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
-        for side in [Some(h), film.mesh.topology.rest_twin(h)].into_iter().flatten() {
-            film.forces.binding[side.index()] = 0.0;
-        }
+        film.forces.set_binding(&film.mesh.topology, h, 0.0);
         edges.push(h);
         v = film.mesh.topology.target(h);
     }

@@ -40,7 +40,7 @@ fn an_edge_that_lies_level_makes_no_source() {
     }
     for h in film.mesh.topology.all_half_edges().collect::<Vec<_>>() {
         if film.mesh.topology.edge(h) != film.mesh.topology.edge(edge) {
-            film.forces.binding[h.index()] = 1e6;
+            film.forces.set_binding(&film.mesh.topology, h, 1e6);
         }
     }
     film.step(&settings, &Environment::default());
@@ -200,8 +200,7 @@ fn bare_metal_rusts_first_and_metal_under_whole_film_never() {
     film.step(&settings, &Environment::default());
     let face = film.mesh.topology.fan(nearest(&film, Vec3::ZERO)).next().unwrap().face();
     for h in face.half_edges() {
-        let twin = film.mesh.topology.rest_twin(h).unwrap();
-        (film.forces.binding[h.index()], film.forces.binding[twin.index()]) = (0.0, 0.0);
+        film.forces.set_binding(&film.mesh.topology, h, 0.0);
     }
     film.age_to(0.3, &settings, &Environment::default());
     assert!(!film.mesh.topology.is_live(face));
@@ -224,9 +223,7 @@ fn rust_on_pieces_that_fall_is_gone_with_them() {
         rust(a).total_cmp(&rust(b))
     });
     for h in stained.unwrap().half_edges() {
-        for side in [Some(h), film.mesh.topology.rest_twin(h)].into_iter().flatten() {
-            film.forces.binding[side.index()] = 0.0;
-        }
+        film.forces.set_binding(&film.mesh.topology, h, 0.0);
     }
     film.step(&settings, &Environment::default());
     film.validate().unwrap();

@@ -1,12 +1,14 @@
 //! Each equation and rule of the fracture stages against an independent derivation.
 
+mod foresight;
+
 use core::f32::consts::PI;
 
 use bevy_math::Vec3;
 
 use super::*;
 use crate::{
-    film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, VertexId},
+    film::{FilmChanges, FilmMesh, HalfEdgeId, VertexId},
     settings::CoatingSettings,
 };
 
@@ -43,6 +45,11 @@ fn uniform_forces(mesh: &FilmMesh, settings: &CoatingSettings) -> FilmForces {
 
 fn separate_all(forces: &mut FilmForces) {
     forces.separated_age.fill(0.0);
+    forces.touch_all();
+}
+
+fn set_all_adhesion(mesh: &FilmMesh, forces: &mut FilmForces, adhesion: f32) {
+    mesh.topology.all_vertices().for_each(|v| forces.set_adhesion(v, adhesion));
 }
 
 fn edge_between(mesh: &FilmMesh, a: u32, b: u32) -> HalfEdgeId {
@@ -71,14 +78,22 @@ impl Tearing {
     }
 
     fn bind(&mut self, h: HalfEdgeId, binding: f32) {
-        let twin = self.mesh.topology.rest_twin(h).unwrap();
-        self.forces.binding[h.index()] = binding;
-        self.forces.binding[twin.index()] = binding;
+        self.forces.set_binding(&self.mesh.topology, h, binding);
+    }
+
+    fn binding(&self, h: HalfEdgeId) -> f32 {
+        self.forces.binding(&self.mesh.topology, h)
+    }
+
+    /// Attaches `v` again, or separates it.
+    fn attach(&mut self, v: VertexId, attached: bool) {
+        self.forces.separated_age[v.index()] = if attached { f32::INFINITY } else { 0.0 };
+        self.forces.touch_all();
     }
 
     fn step(&mut self) -> Vec<HalfEdgeId> {
         self.changes.clear();
-        let mut scratch = TearScratch::default();
+        let mut scratch = FractureScratch::default();
         tear(&mut self.mesh, &mut self.forces, &self.settings.tearing, Vec3::NEG_Y, &mut self.changes, &mut scratch);
         self.mesh.validate().unwrap();
         self.changes.torn.clone()
@@ -104,7 +119,7 @@ fn a_flat_vertex_of_valence_six_feels_exactly_the_contraction() {
     let mesh = lattice(6);
     let settings = CoatingSettings::default();
     let mut forces = uniform_forces(&mesh, &settings);
-    forces.contraction.fill(1.7);
+    mesh.topology.all_faces().for_each(|f| forces.set_contraction(&mesh.topology, f, 1.7));
     let centre = VertexId(3 * 7 + 3);
     assert_eq!(mesh.topology.fan(centre).count(), 6);
     assert!((bending_force(&mesh, &forces, centre, 1.0 / 3.0) - 1.7).abs() < 1e-6);
@@ -130,14 +145,15 @@ fn adhesion_falls_at_its_rate_and_stops_at_zero() {
     let mesh = lattice(2);
     let settings = CoatingSettings::default();
     let mut forces = uniform_forces(&mesh, &settings);
-    forces.adhesion.fill(0.25);
+    set_all_adhesion(&mesh, &mut forces, 0.25);
     age_forces(&mesh, &mut forces, &settings, &[], 0.1);
-    assert!(forces.adhesion.iter().all(|a| (a - 0.15).abs() < 1e-6));
-    assert!(forces.contraction.iter().all(|c| (c - 1.1).abs() < 1e-6));
+    let topology = &mesh.topology;
+    assert!(topology.all_vertices().all(|v| (forces.adhesion(v) - 0.15).abs() < 1e-6));
+    assert!(topology.all_faces().all(|f| (forces.contraction(f) - 1.1).abs() < 1e-6));
     for _ in 0..5 {
         age_forces(&mesh, &mut forces, &settings, &[], 0.1);
     }
-    assert!(forces.adhesion.iter().all(|&a| a == 0.0));
+    assert!(topology.all_vertices().all(|v| forces.adhesion(v) == 0.0));
 }
 
 #[test]
@@ -150,7 +166,7 @@ fn a_vertex_separates_once_at_the_age_of_the_closed_form() {
         settings.adhesion.decay = decay;
         settings.tearing.contraction_growth = growth;
         let mut forces = uniform_forces(&mesh, &settings);
-        forces.adhesion.fill(adhesion);
+        set_all_adhesion(&mesh, &mut forces, adhesion);
         let centre = VertexId(4 * 9 + 4);
         let lift = bending_force(&mesh, &forces, centre, settings.bending.gain) / settings.tearing.contraction;
         let predicted = separation_age(lift, settings.tearing.contraction, growth, adhesion, decay);
@@ -180,7 +196,7 @@ fn weak_edges_are_drawn_at_their_probability() {
     let weak = |seed| {
         let forces = FilmForces::new(&mesh, &settings, seed);
         let inner = mesh.topology.all_edges().filter(|&h| mesh.topology.rest_twin(h).is_some());
-        inner.filter(|h| forces.binding[h.index()] < 1.0).map(|h| h.0).collect::<Vec<_>>()
+        inner.filter(|&h| forces.binding(&mesh.topology, h) < 1.0).map(|h| h.0).collect::<Vec<_>>()
     };
     let count = weak(5).len() as f64 / 29_800.0;
     assert!((0.007..0.013).contains(&count), "{count}");
@@ -196,13 +212,13 @@ fn an_edge_tears_only_between_separated_ends_and_beyond_its_binding() {
     film.bind(h, 2.0);
     assert_eq!(film.step(), [], "a pull of exactly the binding does not either");
     film.bind(h, 1.999);
-    film.forces.separated_age[25] = f32::INFINITY;
+    film.attach(VertexId(25), true);
     assert_eq!(film.step(), [], "an attached end holds the edge");
-    film.forces.separated_age[25] = 0.0;
+    film.attach(VertexId(25), false);
     assert_eq!(film.step(), [h]);
     let twin = film.mesh.topology.rest_twin(h).unwrap();
     for f in [h.face(), twin.face()] {
-        assert!((film.forces.contraction[f.index()] - 0.3).abs() < 1e-6, "both faces are relieved");
+        assert!((film.forces.contraction(f) - 0.3).abs() < 1e-6, "both faces are relieved");
     }
     // Both ends are tips that point away from the torn edge.
     let along = film.mesh.geometry.rest_positions[25] - film.mesh.geometry.rest_positions[24];
@@ -288,12 +304,12 @@ fn bound_edges_of_torn_faces_lose_binding_once_for_each() {
     let kept = (-1.3f64 * 0.5).exp() as f32;
     let twin = film.mesh.topology.rest_twin(torn).unwrap();
     for h in [torn.next(), torn.previous(), twin.next(), twin.previous()] {
-        assert!((film.forces.binding[h.index()] - 6.0 * kept).abs() < 1e-5);
+        assert!((film.binding(h) - 6.0 * kept).abs() < 1e-5);
         let other = film.mesh.topology.rest_twin(h).unwrap();
-        assert_eq!(film.forces.binding[h.index()], film.forces.binding[other.index()]);
+        assert_eq!(film.binding(h), film.binding(other));
     }
-    let decayed = film.forces.binding.iter().filter(|&&b| b < 6.0 && b > 0.1).count();
-    assert_eq!(decayed, 8, "no other edge does");
+    let decayed = |h: &HalfEdgeId| film.binding(*h) < 6.0 && film.binding(*h) > 0.1;
+    assert_eq!(film.mesh.topology.all_half_edges().filter(decayed).count(), 8, "no other edge does");
     // An edge between two torn faces decays twice.
     film.bind(twin.next(), 6.0);
     let beyond = film.mesh.topology.rest_twin(twin.next()).unwrap();
@@ -302,7 +318,7 @@ fn bound_edges_of_torn_faces_lose_binding_once_for_each() {
     film.step();
     film.bind(twin.next(), 6.0);
     age_forces(&film.mesh, &mut film.forces, &film.settings, &[], 0.5);
-    assert!((film.forces.binding[twin.next().index()] - 6.0 * kept * kept).abs() < 1e-5);
+    assert!((film.binding(twin.next()) - 6.0 * kept * kept).abs() < 1e-5);
 }
 
 #[test]
@@ -319,7 +335,7 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
     for (limit, fallen) in [(0, 0), (6, 6), (5, 0)] {
         let mut film = Tearing::on(lattice(6));
         film.settings.stripping.fall_faces = limit;
-        film.forces.separated_age[0] = f32::INFINITY; // one corner holds the rest of the film
+        film.attach(VertexId(0), true); // one corner holds the rest of the film
         film.settings.tearing.contraction_kept = 1.0;
         // Cut out the hexagon around vertex 24.
         let ring: Vec<_> = film.mesh.topology.fan(VertexId(24)).map(|h| h.next()).collect();
@@ -328,7 +344,7 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
         }
         film.settings.tearing.alpha = 1.0;
         assert_eq!(film.step().len(), 6);
-        let mut scratch = PieceScratch::default();
+        let mut scratch = FractureScratch::default();
         strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
         film.mesh.validate().unwrap();
         assert_eq!(film.changes.removed.len(), fallen, "limit {limit}");
@@ -342,7 +358,7 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
     }
     // A single face.
     let mut film = Tearing::on(lattice(6));
-    film.forces.separated_age[0] = f32::INFINITY;
+    film.attach(VertexId(0), true);
     film.settings.stripping.fall_faces = 0;
     film.settings.tearing.contraction_kept = 1.0;
     film.settings.tearing.alpha = 1.0;
@@ -350,7 +366,13 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
         film.bind(h, 0.0);
     }
     film.step();
-    strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut PieceScratch::default());
+    strip(
+        &mut film.mesh,
+        &mut film.forces,
+        &film.settings.stripping,
+        &mut film.changes,
+        &mut FractureScratch::default(),
+    );
     assert_eq!(film.changes.removed, [HalfEdgeId(90).face()]);
     film.mesh.validate().unwrap();
 }
@@ -365,13 +387,13 @@ fn a_border_face_hangs_on_until_its_last_vertex_separates() {
     film.bind(edge_between(&film.mesh, 0, 1), 0.0);
     film.bind(edge_between(&film.mesh, 0, 2), 0.0);
     assert_eq!(film.step().len(), 2);
-    let mut scratch = PieceScratch::default();
+    let mut scratch = FractureScratch::default();
     let attached = film.mesh.topology.corners(HalfEdgeId(0).face())[1];
-    film.forces.separated_age[attached.index()] = f32::INFINITY;
+    film.attach(attached, true);
     strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
     assert_eq!(film.changes.removed, []);
     film.changes.clear();
-    film.forces.separated_age[attached.index()] = 1.0;
+    film.attach(attached, false);
     film.changes.separated.push(attached);
     strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
     assert_eq!(film.changes.removed, [HalfEdgeId(0).face()]);
