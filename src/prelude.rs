@@ -1,6 +1,7 @@
 //! All that most games need: `use bevy_coating::prelude::*;`
 
 pub use crate::{
+    deform::SolverQuality,
     film::build::{BuildWarning, FilmResolution},
     plugin::{
         CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,

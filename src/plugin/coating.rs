@@ -9,6 +9,7 @@ use bevy::{
 
 use super::{Shelter, StainDisplay};
 use crate::{
+    deform::SolverQuality,
     film::build::FilmResolution,
     settings::{CoatingSettings, SettingsError},
     shown::look::StainLook,
@@ -27,8 +28,8 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 /// the entity of the mesh. Where the film is ready, that entity has [`CoatedBy`](super::CoatedBy).
 ///
 /// The prop shows its own mesh until the film has been built in the background, and gets it back when the
-/// `Coating` is removed. `rate`, `paused`, `settings`, `shelter` and the looks may be changed at any time; changing any
-/// other field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
+/// `Coating` is removed. `rate`, `paused`, `settings`, `quality`, `shelter` and the looks may be changed at any time;
+/// changing any other field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
@@ -46,6 +47,8 @@ pub struct Coating {
     pub start_age: f64,
     /// Steps per unit age. At least 1, default 1000. More is slower, not better: the result hardly depends on it.
     pub steps_per_age: u32,
+    /// How much work goes into bending. Default: [`SolverQuality::Default`].
+    pub quality: SolverQuality,
     /// What decides how much rain and sun reaches the prop. Default: [what stands around it](Shelter::Scene).
     pub shelter: Shelter,
     /// Colour of the paint's back, seen where it curls. Default: a warm grey.
@@ -68,6 +71,7 @@ impl Default for Coating {
             paused: false,
             start_age: 0.0,
             steps_per_age: DEFAULT_STEPS_PER_AGE,
+            quality: SolverQuality::default(),
             shelter: Shelter::default(),
             primer: Color::srgb(0.55, 0.52, 0.47),
             metal: MetalLook::default(),
@@ -119,6 +123,11 @@ impl Coating {
     /// Sets the steps per unit age.
     pub fn with_steps_per_age(self, steps_per_age: u32) -> Self {
         Self { steps_per_age, ..self }
+    }
+
+    /// Sets how much work goes into bending.
+    pub fn with_quality(self, quality: SolverQuality) -> Self {
+        Self { quality, ..self }
     }
 
     /// Sets what decides how much rain and sun reaches the prop.

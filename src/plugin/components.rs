@@ -17,7 +17,7 @@ use bevy::{
 
 use super::coating::FilmKey;
 use crate::{
-    deform::FilmConstraints,
+    deform::{FilmConstraints, SolverQuality},
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
     settings::CoatingSettings,
@@ -47,6 +47,8 @@ pub struct CoatedBy(pub Entity);
 pub struct FilmPace {
     /// Settings in force.
     pub settings: Arc<CoatingSettings>,
+    /// How bending is solved.
+    pub quality: SolverQuality,
     /// Age gained per age that the clock gives out.
     pub rate: f64,
     /// Whether this film stands still.
@@ -73,6 +75,7 @@ impl FilmPace {
     pub(super) fn new(settings: Arc<CoatingSettings>, cracked: bool) -> Self {
         Self {
             settings,
+            quality: SolverQuality::default(),
             rate: 1.0,
             paused: false,
             environment: Environment::default(),

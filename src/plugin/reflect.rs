@@ -6,6 +6,7 @@ use bevy::{
 };
 
 use crate::{
+    deform::SolverQuality,
     film::build::FilmResolution,
     shown::look::{StainLook, StainPart, StainPattern},
 };
@@ -17,6 +18,17 @@ impl_reflect!(
         Triangles(u32),
         EdgeLength(f32),
         Keep,
+    }
+);
+
+impl_reflect!(
+    #[reflect(Default, Debug, Clone, PartialEq, Hash)]
+    #[type_path = "bevy_coating::deform"]
+    enum SolverQuality {
+        Reference,
+        High,
+        Default,
+        Fast,
     }
 );
 

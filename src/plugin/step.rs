@@ -151,6 +151,7 @@ pub(super) fn bend(
                     clock,
                     inner,
                     &pace.settings,
+                    pace.quality,
                     &mut scratch.bypass_change_detection().bend,
                 );
                 if inner.moved {

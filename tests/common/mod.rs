@@ -14,8 +14,9 @@ use bevy_coating::{
     deform::FilmConstraints,
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
+    plugin::FilmPace,
     prelude::*,
-    sim::{FilmState, StepScratch},
+    sim::FilmState,
     stain::StainFields,
 };
 
@@ -114,7 +115,8 @@ pub fn film_state(app: &App, entity: Entity) -> FilmState {
         stains: film.get::<StainFields>().expect(part).clone(),
         clock: *film.get::<FilmClock>().expect(part),
         changes: film.get::<FilmChanges>().expect(part).clone(),
-        scratch: StepScratch::default(),
+        quality: film.get::<FilmPace>().expect(part).quality,
+        ..FilmState::default()
     }
 }
 

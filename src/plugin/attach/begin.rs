@@ -117,7 +117,8 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
         }
     }
     let paint = FilmPaint::new(coating, Vec3::ZERO);
-    Ok(Some(FilmOrder { meshes, key: coating.key(), settings, scale, environment, shelter, paint }))
+    let (key, quality) = (coating.key(), coating.quality);
+    Ok(Some(FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint }))
 }
 
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {

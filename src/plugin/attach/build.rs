@@ -11,6 +11,7 @@ use bevy::{
 
 use super::surface::surface_of;
 use crate::{
+    deform::SolverQuality,
     film::build::{BuildError, BuildWarning},
     plugin::{
         CoatingFault,
@@ -38,6 +39,7 @@ pub(super) struct FilmOrder {
     pub meshes: Vec<Mesh>,
     pub key: FilmKey,
     pub settings: Arc<CoatingSettings>,
+    pub quality: SolverQuality,
     pub scale: Vec3,
     pub environment: Environment,
     /// What may shelter it, if rain or sun reach the film.
@@ -56,11 +58,12 @@ pub(crate) struct FilmReadiness {
 
 /// Builds, dresses and ages a film.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { meshes, key, settings, scale, environment, shelter, paint } = order;
+    let FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
     let built = crate::film::build::build(&surface, key.resolution, key.seed)?;
     let mut film = FilmState::new(&built, settings, key.seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
+    film.quality = *quality;
     let mut display = FilmDisplay::new(&film, &surface, &built, attributes, *scale, paint.clone());
     let shelter = shelter.clone().map(|order| cast(order, &mut film)).unwrap_or_default();
     film.age_to(key.start_age, settings, environment);

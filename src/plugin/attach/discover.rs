@@ -140,6 +140,7 @@ pub(super) fn follow_coatings(
         }
         pace.paused = coating.paused;
         pace.rate = coating.rate;
+        pace.quality = coating.quality;
         shelter.choose(coating.shelter);
         let settings = match &coating.settings {
             SettingsSource::Inline(settings) => Some(settings),

@@ -51,10 +51,10 @@ pub(super) fn finish_builds(
             }
             Ok(ready) => {
                 let FilmReadiness { film: state, settings, warnings, mut display, mut shelter } = *ready;
-                let FilmState { mesh, forces, constraints, stains, clock, changes, scratch } = state;
+                let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
                 let triangles = mesh.topology.face_count();
                 let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
-                (pace.rate, pace.paused) = (coating.rate, coating.paused);
+                (pace.rate, pace.paused, pace.quality) = (coating.rate, coating.paused, coating.quality);
                 shelter.choice = coating.shelter;
                 let handles = display.put_on(&mut assets);
                 for (&slot, handle) in build.slots.iter().zip(handles) {
