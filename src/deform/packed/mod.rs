@@ -14,8 +14,11 @@
 
 #![allow(unsafe_code, reason = "intrinsics, and loads and stores without bounds checks, in the innermost loops")]
 
+#[allow(clippy::undocumented_unsafe_blocks, reason = "every block needs the same, which the module says once")]
 mod kernels;
+#[allow(clippy::undocumented_unsafe_blocks, reason = "every block needs the same, which the module says once")]
 mod lanes;
+#[allow(clippy::undocumented_unsafe_blocks, reason = "every block needs the same, which the module says once")]
 mod level;
 mod pack;
 mod points;
@@ -28,4 +31,5 @@ pub use region::{BendLane, LengthLane, Region};
 pub use slots::Blocked;
 
 #[cfg(test)]
+#[allow(clippy::undocumented_unsafe_blocks, reason = "every block needs the same, which the module says once")]
 mod tests;
