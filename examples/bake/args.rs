@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use bevy_coating::{settings::CoatingSettings, stain::Environment};
+use bevy_coating::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
 use bevy_math::{DVec3, Vec3};
 use clap::{
     CommandFactory, Parser,
@@ -76,6 +76,9 @@ pub struct Args {
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_STEPS))
     )]
     steps: u32,
+    /// How bending is solved: reference, high, default or fast
+    #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_quality)]
+    quality: SolverQuality,
     /// Seed of everything random
     #[arg(long, default_value_t = 0, allow_hyphen_values = true)]
     seed: u64,
@@ -161,6 +164,7 @@ impl Args {
             preset: self.preset.clone(),
             age: self.age,
             steps: self.steps,
+            quality: self.quality,
             seed: self.seed,
             environment: Environment {
                 gravity: self.gravity,
@@ -188,6 +192,10 @@ fn parse_glb(path: OsString) -> Result<PathBuf, &'static str> {
 fn parse_set(text: &str) -> Result<(String, String), &'static str> {
     let (path, value) = text.split_once('=').ok_or("write it as path=value")?;
     Ok((path.trim().into(), value.trim().into()))
+}
+
+fn parse_quality(text: &str) -> Result<SolverQuality, &'static str> {
+    SolverQuality::named(text).ok_or("not reference, high, default or fast")
 }
 
 fn parse_age(text: &str) -> Result<f64, String> {

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use bevy_coating::{
+    deform::SolverQuality,
     settings::CoatingSettings,
     sim::{FilmMeasures, FilmState, StageTimes},
     stain::Environment,
@@ -29,6 +30,8 @@ pub struct BakeOptions {
     pub age: f64,
     /// Steps per unit age; at least 1.
     pub steps: u32,
+    /// How bending is solved.
+    pub quality: SolverQuality,
     /// Seed of films and forces.
     pub seed: u64,
     /// Gravity and weather in scene space.
@@ -43,6 +46,7 @@ impl Default for BakeOptions {
             preset: "default".into(),
             age: 1.0,
             steps: 1000,
+            quality: SolverQuality::default(),
             seed: 0,
             environment: Environment::default(),
         }
@@ -107,6 +111,7 @@ pub fn bake(
         settings: &options.settings,
         seed: options.seed,
         steps_per_age: options.steps,
+        quality: options.quality,
     };
     let coated = stopwatch.build(|| coat(&origin, meshes, &coating))?;
     let Coated { props, mut films, warnings: built } = coated;
@@ -131,6 +136,7 @@ pub fn bake(
         seed: options.seed,
         preset: options.preset.clone(),
         sweeps_per_age: options.settings.deform.sweeps_per_age,
+        quality: options.quality.name().into(),
     };
     let digest = hasher.finalize().to_hex().to_string();
     let stats = Stats { schema: SCHEMA, input, film, run, seconds: stopwatch.seconds(), timeline, digest };

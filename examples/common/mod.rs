@@ -44,7 +44,7 @@ pub use glb::aged_glb;
 pub use input::{Generator, Input, read};
 pub use model::{Image, MaterialLibrary, Model, ModelMesh, Slot};
 pub use output::Staged;
-pub use props::{MAX_TRIANGLES, Resolution};
+pub use props::{Coated, Coating as CoatedWith, MAX_TRIANGLES, Resolution, coat};
 pub use stained::{StainOutput, TEXTURE_SIZES};
 pub use stats::Stats;
 pub use stopwatch::Stopwatch;

@@ -1,6 +1,7 @@
 //! From meshes to films: the triangle budget and the build.
 
 use bevy_coating::{
+    deform::SolverQuality,
     film::build::{self, BuildError, BuildWarning, BuiltFilm, FilmResolution, Surface},
     settings::CoatingSettings,
     sim::FilmState,
@@ -55,6 +56,7 @@ pub struct Coating<'a> {
     pub settings: &'a CoatingSettings,
     pub seed: u64,
     pub steps_per_age: u32,
+    pub quality: SolverQuality,
 }
 
 /// Makes a film for every mesh. Meshes that are all slivers are left out with a warning, unless there is
@@ -113,7 +115,10 @@ impl Job {
             None => build::build(&self.mesh.surface, self.resolution, self.seed),
         };
         self.result = Some(built.map(|built| {
-            let film = FilmState::new(&built, coating.settings, self.seed, coating.steps_per_age);
+            let mut film = FilmState::new(&built, coating.settings, self.seed, coating.steps_per_age);
+            if let Some(film) = &mut film {
+                film.quality = coating.quality;
+            }
             (built, film)
         }));
     }

@@ -73,8 +73,10 @@ pub struct RunStats {
     pub seed: u64,
     /// Name or file of the preset.
     pub preset: String,
-    /// Sweeps of the solver per unit age.
+    /// Sweeps of the solver per unit age that the settings ask for.
     pub sweeps_per_age: f32,
+    /// Name of the solver's quality.
+    pub quality: String,
 }
 
 impl Stats {

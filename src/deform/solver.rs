@@ -27,6 +27,26 @@ pub enum SolverQuality {
     Fast,
 }
 
+impl SolverQuality {
+    /// All, the most work first.
+    pub const ALL: [Self; 4] = [Self::Reference, Self::High, Self::Default, Self::Fast];
+
+    /// Lower-case name, as in command lines.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reference => "reference",
+            Self::High => "high",
+            Self::Default => "default",
+            Self::Fast => "fast",
+        }
+    }
+
+    /// The quality of that [name](Self::name).
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|quality| quality.name() == name)
+    }
+}
+
 /// What a solve keeps between steps that is no part of the film: buffers, and the instruction set.
 #[derive(Clone, Debug, Default)]
 pub struct BendScratch {
