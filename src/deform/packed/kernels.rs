@@ -5,7 +5,7 @@
 
 use super::{
     lanes::Lanes,
-    pack::{BendPack, BendTargets, LANES, LengthPack},
+    pack::{BendPack, BendTargets, LANES, Lane, LengthPack},
     points::{Place, Point},
 };
 
@@ -61,6 +61,12 @@ unsafe fn join<L: Lanes>(v: Vec3<L>, w: L) -> [L; 4] {
     [v.0, v.1, v.2, w]
 }
 
+/// The places from lane `at` on.
+#[inline(always)]
+fn place(places: &Lane<Place>, at: usize) -> *const Place {
+    places.as_ptr().wrapping_add(at)
+}
+
 /// Below this, the square of the sum of the unit normals leaves no neutral direction: a fully folded pair.
 const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
 
@@ -92,7 +98,8 @@ pub(super) unsafe fn sweep_bends<L: Lanes>(points: *mut Point, packs: &[BendPack
 #[inline(always)]
 unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
     unsafe {
-        let places: [*const Place; 4] = [0, 1, 2, 3].map(|i| pack.points[i].as_ptr().add(at));
+        let [p1, p2, p3, p4] = &pack.points;
+        let places = [place(p1, at), place(p2, at), place(p3, at), place(p4, at)];
         let (p1, w1) = split(L::gather(points, places[0]));
         let (p2, w2) = split(L::gather(points, places[1]));
         let (p3, w3) = split(L::gather(points, places[2]));
@@ -112,8 +119,10 @@ unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
         let valid = L::and(mm.gt(areas.mul(L::splat(MIN_NEUTRAL_SQUARED))), L::and(areas.gt(zero), total.gt(zero)));
         let reciprocal = one.div(mm).keep(valid);
         let shared = Pair { m, mm, d, reciprocal, valid };
-        let b3 = shared.wing(a3, n3, pack.folds[0].as_ptr().add(at), pack.medians[0].as_ptr().add(at));
-        let b4 = shared.wing(a4, n4, pack.folds[1].as_ptr().add(at), pack.medians[1].as_ptr().add(at));
+        let b3 =
+            shared.wing(a3, n3, pack.folds[0].as_ptr().wrapping_add(at), pack.medians[0].as_ptr().wrapping_add(at));
+        let b4 =
+            shared.wing(a4, n4, pack.folds[1].as_ptr().wrapping_add(at), pack.medians[1].as_ptr().wrapping_add(at));
         let (without3, without4) = (total.sub(w3), total.sub(w4));
         let both = without3.add(without4);
         let share = one.div(total.mul(both)).keep(valid);
@@ -176,10 +185,10 @@ pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[Length
 #[inline(always)]
 unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
     unsafe {
-        let places = [pack.points[0].as_ptr().add(at), pack.points[1].as_ptr().add(at)];
+        let places = [place(&pack.points[0], at), place(&pack.points[1], at)];
         let (p1, w1) = split(L::gather(points, places[0]));
         let (p2, w2) = split(L::gather(points, places[1]));
-        let rest = L::load(pack.rest.as_ptr().add(at));
+        let rest = L::load(pack.rest.as_ptr().wrapping_add(at));
         let difference = p1.sub(p2);
         let length = difference.dot(difference).sqrt();
         let under = w1.add(w2).mul(length);
@@ -246,17 +255,17 @@ pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTarg
     for at in (0..LANES).step_by(L::WIDTH) {
         // SAFETY: `at` is within the pack and the rest is the caller's.
         unsafe {
-            let end = L::load(angles.starts.as_ptr().add(at)).sub(L::splat(limit));
-            let target = L::load(angles.targets.as_ptr().add(at));
+            let end = L::load(angles.starts.as_ptr().wrapping_add(at)).sub(L::splat(limit));
+            let target = L::load(angles.targets.as_ptr().wrapping_add(at));
             let next = target.sub(L::splat(step));
             let next = L::select(next.gt(end), next, end);
             let target = L::select(target.gt(end), next, target);
-            target.store(angles.targets.as_mut_ptr().add(at));
-            target.sub(end).store(ends.as_mut_ptr().add(at));
+            target.store(angles.targets.as_mut_ptr().wrapping_add(at));
+            target.sub(end).store(ends.as_mut_ptr().wrapping_add(at));
             let cosine = cosine_of_half(target);
             for i in 0..2 {
-                let skew = L::load(angles.skews[i].as_ptr().add(at));
-                skew.mul(cosine).store(pack.folds[i].as_mut_ptr().add(at));
+                let skew = L::load(angles.skews[i].as_ptr().wrapping_add(at));
+                skew.mul(cosine).store(pack.folds[i].as_mut_ptr().wrapping_add(at));
             }
         }
     }

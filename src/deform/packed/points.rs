@@ -27,10 +27,17 @@ impl Place {
         Self(index as u32 * 16)
     }
 
-    /// Offset from the first point, in bytes.
+    /// The point here. Wrapping, as the check that others make in debug builds would cost more than the rest; within the
+    /// points it is the same.
     #[inline(always)]
-    pub fn bytes(self) -> usize {
-        self.0 as usize
+    pub fn of(self, points: *const Point) -> *const Point {
+        points.wrapping_byte_add(self.0 as usize)
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub fn of_mut(self, points: *mut Point) -> *mut Point {
+        points.wrapping_byte_add(self.0 as usize)
     }
 
     #[inline(always)]

@@ -77,13 +77,11 @@ impl Lanes for Avx2 {
     #[inline(always)]
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let half = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
-            // Each row holds points i and i + 4, so that lanes end up in the order of the places.
-            let row = |i| _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(half(i)), half(i + 4));
-            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
+            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
             let (xy, zw) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
-            [low(xy, xy_2), high(xy, xy_2), low(zw, zw_2), high(zw, zw_2)].map(Self)
+            [Self(low(xy, xy_2)), Self(high(xy, xy_2)), Self(low(zw, zw_2)), Self(high(zw, zw_2))]
         }
     }
 
@@ -92,13 +90,29 @@ impl Lanes for Avx2 {
         unsafe {
             let (xy, xy_2) = (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm256_unpacklo_ps(z.0, w.0), _mm256_unpackhi_ps(z.0, w.0));
-            let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
-            for (i, row) in rows.into_iter().enumerate() {
-                let place = |i| points.byte_add((*places.add(i)).bytes()).cast();
-                _mm_storeu_ps(place(i), _mm256_castps256_ps128(row));
-                _mm_storeu_ps(place(i + 4), _mm256_extractf128_ps::<1>(row));
-            }
+            put_row(points, places, low(xy, zw));
+            put_row(points, places.wrapping_add(1), high(xy, zw));
+            put_row(points, places.wrapping_add(2), low(xy_2, zw_2));
+            put_row(points, places.wrapping_add(3), high(xy_2, zw_2));
         }
+    }
+}
+
+/// Points 0 and 4 from `places` on, so that lanes end up in the order of the places.
+#[inline(always)]
+unsafe fn row(points: *const Point, places: *const Place) -> __m256 {
+    unsafe {
+        let row = _mm256_castps128_ps256(_mm_loadu_ps((*places).of(points).cast()));
+        _mm256_insertf128_ps::<1>(row, _mm_loadu_ps((*places.wrapping_add(4)).of(points).cast()))
+    }
+}
+
+/// Writes points 0 and 4 from `places` on.
+#[inline(always)]
+unsafe fn put_row(points: *mut Point, places: *const Place, row: __m256) {
+    unsafe {
+        _mm_storeu_ps((*places).of_mut(points).cast(), _mm256_castps256_ps128(row));
+        _mm_storeu_ps((*places.wrapping_add(4)).of_mut(points).cast(), _mm256_extractf128_ps::<1>(row));
     }
 }
 

@@ -76,18 +76,11 @@ impl Lanes for Avx512 {
     #[inline(always)]
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let quarter = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
-            // Each row holds points i, i + 4, i + 8 and i + 12, so that lanes end up in the order of the places.
-            let row = |i| {
-                let row = _mm512_castps128_ps512(quarter(i));
-                let row = _mm512_insertf32x4::<1>(row, quarter(i + 4));
-                let row = _mm512_insertf32x4::<2>(row, quarter(i + 8));
-                _mm512_insertf32x4::<3>(row, quarter(i + 12))
-            };
-            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
+            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
             let (xy, zw) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
-            [low(xy, xy_2), high(xy, xy_2), low(zw, zw_2), high(zw, zw_2)].map(Self)
+            [Self(low(xy, xy_2)), Self(high(xy, xy_2)), Self(low(zw, zw_2)), Self(high(zw, zw_2))]
         }
     }
 
@@ -96,15 +89,33 @@ impl Lanes for Avx512 {
         unsafe {
             let (xy, xy_2) = (_mm512_unpacklo_ps(x.0, y.0), _mm512_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm512_unpacklo_ps(z.0, w.0), _mm512_unpackhi_ps(z.0, w.0));
-            let rows = [low(xy, zw), high(xy, zw), low(xy_2, zw_2), high(xy_2, zw_2)];
-            for (i, row) in rows.into_iter().enumerate() {
-                let place = |i| points.byte_add((*places.add(i)).bytes()).cast();
-                _mm_storeu_ps(place(i), _mm512_castps512_ps128(row));
-                _mm_storeu_ps(place(i + 4), _mm512_extractf32x4_ps::<1>(row));
-                _mm_storeu_ps(place(i + 8), _mm512_extractf32x4_ps::<2>(row));
-                _mm_storeu_ps(place(i + 12), _mm512_extractf32x4_ps::<3>(row));
-            }
+            put_row(points, places, low(xy, zw));
+            put_row(points, places.wrapping_add(1), high(xy, zw));
+            put_row(points, places.wrapping_add(2), low(xy_2, zw_2));
+            put_row(points, places.wrapping_add(3), high(xy_2, zw_2));
         }
+    }
+}
+
+/// Points 0, 4, 8 and 12 from `places` on, so that lanes end up in the order of the places.
+#[inline(always)]
+unsafe fn row(points: *const Point, places: *const Place) -> __m512 {
+    unsafe {
+        let row = _mm512_castps128_ps512(_mm_loadu_ps((*places).of(points).cast()));
+        let row = _mm512_insertf32x4::<1>(row, _mm_loadu_ps((*places.wrapping_add(4)).of(points).cast()));
+        let row = _mm512_insertf32x4::<2>(row, _mm_loadu_ps((*places.wrapping_add(8)).of(points).cast()));
+        _mm512_insertf32x4::<3>(row, _mm_loadu_ps((*places.wrapping_add(12)).of(points).cast()))
+    }
+}
+
+/// Writes points 0, 4, 8 and 12 from `places` on.
+#[inline(always)]
+unsafe fn put_row(points: *mut Point, places: *const Place, row: __m512) {
+    unsafe {
+        _mm_storeu_ps((*places).of_mut(points).cast(), _mm512_castps512_ps128(row));
+        _mm_storeu_ps((*places.wrapping_add(4)).of_mut(points).cast(), _mm512_extractf32x4_ps::<1>(row));
+        _mm_storeu_ps((*places.wrapping_add(8)).of_mut(points).cast(), _mm512_extractf32x4_ps::<2>(row));
+        _mm_storeu_ps((*places.wrapping_add(12)).of_mut(points).cast(), _mm512_extractf32x4_ps::<3>(row));
     }
 }
 

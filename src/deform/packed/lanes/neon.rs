@@ -76,17 +76,21 @@ impl Lanes for Neon {
     #[inline(always)]
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let row = |i| vld1q_f32(points.byte_add((*places.add(i)).bytes()).cast());
-            transpose([row(0), row(1), row(2), row(3)]).map(Self)
+            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
+            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
+            let [x, y, z, w] = transpose([a, b, c, d]);
+            [Self(x), Self(y), Self(z), Self(w)]
         }
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         unsafe {
-            for (i, row) in transpose(components.map(|c| c.0)).into_iter().enumerate() {
-                vst1q_f32(points.byte_add((*places.add(i)).bytes()).cast(), row);
-            }
+            let [a, b, c, d] = transpose([x.0, y.0, z.0, w.0]);
+            put_row(points, places, a);
+            put_row(points, places.wrapping_add(1), b);
+            put_row(points, places.wrapping_add(2), c);
+            put_row(points, places.wrapping_add(3), d);
         }
     }
 }
@@ -96,8 +100,28 @@ unsafe fn transpose([a, b, c, d]: [float32x4_t; 4]) -> [float32x4_t; 4] {
     unsafe {
         let (even, odd) = (vtrn1q_f32(a, b), vtrn2q_f32(a, b));
         let (even_2, odd_2) = (vtrn1q_f32(c, d), vtrn2q_f32(c, d));
-        let low = |a, b| vreinterpretq_f32_f64(vtrn1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b)));
-        let high = |a, b| vreinterpretq_f32_f64(vtrn2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b)));
         [low(even, even_2), low(odd, odd_2), high(even, even_2), high(odd, odd_2)]
     }
+}
+
+/// The lower two floats of `a`, then those of `b`.
+#[inline(always)]
+unsafe fn low(a: float32x4_t, b: float32x4_t) -> float32x4_t {
+    unsafe { vreinterpretq_f32_f64(vtrn1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }
+}
+
+/// The upper two.
+#[inline(always)]
+unsafe fn high(a: float32x4_t, b: float32x4_t) -> float32x4_t {
+    unsafe { vreinterpretq_f32_f64(vtrn2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }
+}
+
+#[inline(always)]
+unsafe fn row(points: *const Point, place: *const Place) -> float32x4_t {
+    unsafe { vld1q_f32((*place).of(points).cast()) }
+}
+
+#[inline(always)]
+unsafe fn put_row(points: *mut Point, place: *const Place, row: float32x4_t) {
+    unsafe { vst1q_f32((*place).of_mut(points).cast(), row) }
 }

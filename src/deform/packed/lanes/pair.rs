@@ -18,14 +18,14 @@ impl<L: Lanes> Lanes for Pair<L> {
 
     #[inline(always)]
     unsafe fn load(from: *const f32) -> Self {
-        unsafe { Self(L::load(from), L::load(from.add(L::WIDTH))) }
+        unsafe { Self(L::load(from), L::load(from.wrapping_add(L::WIDTH))) }
     }
 
     #[inline(always)]
     unsafe fn store(self, to: *mut f32) {
         unsafe {
             self.0.store(to);
-            self.1.store(to.add(L::WIDTH));
+            self.1.store(to.wrapping_add(L::WIDTH));
         }
     }
 
@@ -78,7 +78,7 @@ impl<L: Lanes> Lanes for Pair<L> {
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
             let [x, y, z, w] = L::gather(points, places);
-            let [x_2, y_2, z_2, w_2] = L::gather(points, places.add(L::WIDTH));
+            let [x_2, y_2, z_2, w_2] = L::gather(points, places.wrapping_add(L::WIDTH));
             [Self(x, x_2), Self(y, y_2), Self(z, z_2), Self(w, w_2)]
         }
     }
@@ -87,7 +87,7 @@ impl<L: Lanes> Lanes for Pair<L> {
     unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         unsafe {
             L::scatter(points, places, [x.0, y.0, z.0, w.0]);
-            L::scatter(points, places.add(L::WIDTH), [x.1, y.1, z.1, w.1]);
+            L::scatter(points, places.wrapping_add(L::WIDTH), [x.1, y.1, z.1, w.1]);
         }
     }
 }

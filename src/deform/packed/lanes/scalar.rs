@@ -75,12 +75,13 @@ impl Lanes for Scalar {
     #[inline(always)]
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         // SAFETY: the caller's.
-        unsafe { (*points.byte_add((*places).bytes())).0.map(Self) }
+        let Point([x, y, z, w]) = unsafe { *(*places).of(points) };
+        [Self(x), Self(y), Self(z), Self(w)]
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
         // SAFETY: the caller's.
-        unsafe { (*points.byte_add((*places).bytes())).0 = components.map(|c| c.0) }
+        unsafe { *(*places).of_mut(points) = Point([x.0, y.0, z.0, w.0]) }
     }
 }

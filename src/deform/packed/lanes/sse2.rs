@@ -76,8 +76,8 @@ impl Lanes for Sse2 {
     #[inline(always)]
     unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
         unsafe {
-            let row = |i| _mm_loadu_ps(points.byte_add((*places.add(i)).bytes()).cast());
-            let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
+            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
             let (xy, zw) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
             [
@@ -94,11 +94,20 @@ impl Lanes for Sse2 {
         unsafe {
             let (xy, xy_2) = (_mm_unpacklo_ps(x.0, y.0), _mm_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm_unpacklo_ps(z.0, w.0), _mm_unpackhi_ps(z.0, w.0));
-            let rows =
-                [_mm_movelh_ps(xy, zw), _mm_movehl_ps(zw, xy), _mm_movelh_ps(xy_2, zw_2), _mm_movehl_ps(zw_2, xy_2)];
-            for (i, row) in rows.into_iter().enumerate() {
-                _mm_storeu_ps(points.byte_add((*places.add(i)).bytes()).cast(), row);
-            }
+            put_row(points, places, _mm_movelh_ps(xy, zw));
+            put_row(points, places.wrapping_add(1), _mm_movehl_ps(zw, xy));
+            put_row(points, places.wrapping_add(2), _mm_movelh_ps(xy_2, zw_2));
+            put_row(points, places.wrapping_add(3), _mm_movehl_ps(zw_2, xy_2));
         }
     }
+}
+
+#[inline(always)]
+unsafe fn row(points: *const Point, place: *const Place) -> __m128 {
+    unsafe { _mm_loadu_ps((*place).of(points).cast()) }
+}
+
+#[inline(always)]
+unsafe fn put_row(points: *mut Point, place: *const Place, row: __m128) {
+    unsafe { _mm_storeu_ps((*place).of_mut(points).cast(), row) }
 }
