@@ -111,6 +111,7 @@ impl Topology {
 
     fn remove(&mut self, f: FaceId, fate: FaceFate) {
         self.fates[f.index()] = fate;
+        self.removed_faces += 1;
         for v in self.corners(f) {
             self.fans[v.index()] = HalfEdgeId::NONE;
         }

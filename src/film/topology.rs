@@ -65,6 +65,8 @@ pub struct Topology {
     pub(super) border: Vec<bool>,
     /// Number of vertices at rest.
     pub(super) original_vertices: u32,
+    /// Number of faces that were removed.
+    pub(super) removed_faces: u32,
 }
 
 impl Topology {
@@ -89,6 +91,7 @@ impl Topology {
             originals: (0..vertices).map(VertexId::new).collect(),
             border: vec![false; vertices],
             original_vertices: vertices as u32,
+            removed_faces: 0,
             origins,
         };
         topology.pair_twins()?;
@@ -145,6 +148,12 @@ impl Topology {
     #[inline]
     pub fn face_count(&self) -> usize {
         self.fates.len()
+    }
+
+    /// Number of faces that were stripped or fell.
+    #[inline]
+    pub fn removed_face_count(&self) -> usize {
+        self.removed_faces as usize
     }
 
     /// Number of half-edges, those of stripped and fallen faces included.

@@ -30,6 +30,8 @@ pub struct FilmForces {
     pub loose: LoosePieces,
     /// Number of torn edges so far.
     pub torn_edges: u32,
+    /// Number of separations so far.
+    pub separations: u32,
     /// Adhesion of each vertex, but for `fallen`; where that is more, nothing is left.
     pub(super) adhesion_bases: Vec<f32>,
     /// Adhesion that every vertex has lost so far.

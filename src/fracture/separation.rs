@@ -67,6 +67,7 @@ pub fn separate(
         let ring = OneRing::new(mesh, forces, v, gain);
         if ring.force > forces.adhesion(v) {
             forces.separated_age[v.index()] = age;
+            forces.separations += 1;
             forces.foresight.pieces.vertex_separated(topology, v);
             forces.touch_edges_at(topology, v);
             changes.separated.push(v);

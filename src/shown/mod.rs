@@ -15,6 +15,7 @@ mod backs;
 mod corners;
 pub mod look;
 mod metal;
+mod moves;
 mod normals;
 mod part;
 mod sides;
@@ -35,6 +36,7 @@ use crate::{
 };
 use backs::Backs;
 use metal::Metal;
+use moves::Moves;
 use normals::CornerFrames;
 use part::shown_stains;
 use sides::Sides;
@@ -65,6 +67,7 @@ pub struct ShownFilm {
     sides: Sides,
     frames: CornerFrames,
     wedges: Wedges,
+    moves: Moves,
     fronts: Vec<ShownPart>,
     backs: Backs,
     metal: Metal,
@@ -77,7 +80,7 @@ struct Seen {
     vertices: usize,
     torn: u32,
     removed: usize,
-    separated: usize,
+    separated: u32,
     stains: u32,
 }
 
@@ -94,8 +97,9 @@ impl ShownFilm {
         let attributes = CornerAttributes::sample(built, surface, mesh);
         let sides = Sides::new(built, mesh.topology.face_count());
         let mut shown = Self {
-            frames: CornerFrames::new(mesh),
+            frames: CornerFrames::new(mesh, &attributes),
             wedges: Wedges::new(mesh, &attributes, &sides),
+            moves: Moves::default(),
             fronts: vec![ShownPart::default(); sides.slot_count()],
             attributes,
             sides,
@@ -133,8 +137,8 @@ impl ShownFilm {
         let seen = Seen {
             vertices: topology.vertex_count(),
             torn: forces.torn_edges,
-            removed: topology.face_count() - topology.live_faces().count(),
-            separated: topology.all_vertices().filter(|&v| !forces.is_attached(v)).count(),
+            removed: topology.removed_face_count(),
+            separated: forces.separations,
             stains: stains.revision,
         };
         let topology_changed = self
@@ -149,12 +153,19 @@ impl ShownFilm {
             self.write_front_attributes(mesh);
             self.write_front_indices(topology);
         }
-        self.frames.turn_faces(mesh);
-        self.write_front_frames(mesh);
+        // What is new or has new neighbours is looked at like what moved.
+        let moved = self.moves.follow(mesh, topology_changed);
+        if moved {
+            self.frames.turn_faces(mesh, &self.attributes, &self.moves);
+            self.frames.add_up(topology, &self.moves);
+            self.write_front_frames(mesh);
+        }
         if topology_changed || exposure_changed {
             self.backs.renew(topology, forces, &self.sides, &self.wedges);
         }
-        self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
+        if moved || topology_changed || exposure_changed {
+            self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
+        }
         if exposure_changed {
             let depth = mesh.geometry.mean_edge * METAL_DEPTH;
             self.metal.renew(mesh, forces, &self.sides, &self.wedges, &self.attributes, depth);
@@ -213,14 +224,18 @@ impl ShownFilm {
     }
 
     fn write_front_frames(&mut self, mesh: &FilmMesh) {
-        for (slot, part) in self.fronts.iter_mut().enumerate() {
-            for (i, &h) in self.wedges.corners(slot).iter().enumerate() {
+        let Self { fronts, wedges, frames, attributes, moves, .. } = self;
+        for (slot, part) in fronts.iter_mut().enumerate() {
+            for (i, &h) in wedges.corners(slot).iter().enumerate() {
                 let v = mesh.topology.origin(h);
+                if !moves.is_turned(v) {
+                    continue;
+                }
                 part.positions[i] = mesh.geometry.positions[v.index()].to_array();
-                let normal = self.frames.normal(&mesh.topology, &self.attributes, h);
+                let normal = frames.normal(&mesh.topology, attributes, h);
                 part.normals[i] = normal.to_array();
                 if let Some(tangent) = part.tangents.get_mut(i) {
-                    *tangent = self.frames.tangent(&mesh.topology, &self.attributes, h, normal).to_array();
+                    *tangent = frames.tangent(&mesh.topology, attributes, h, normal).to_array();
                 }
             }
         }

@@ -6,7 +6,7 @@
 
 use bevy_math::{Vec3, Vec4};
 
-use super::CornerAttributes;
+use super::{CornerAttributes, moves::Moves};
 use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
 /// Normals at rest that differ by less are one smooth surface.
@@ -21,7 +21,32 @@ pub(super) struct CornerFrames {
     rest_normals: Vec<Vec3>,
     /// Area of each face at rest: its weight.
     weights: Vec<f32>,
-    turns: Vec<Turn>,
+    /// Whether each face has turned since rest.
+    turned: Vec<bool>,
+    /// Normal of each corner, turned with its face and weighted.
+    normals: Vec<Vec3>,
+    /// Tangent of each corner, likewise; empty if the prop has none.
+    tangents: Vec<Vec3>,
+    /// Whether the normals at rest of all corners around an original vertex are one smooth surface.
+    smooth: Vec<bool>,
+    /// At vertices that are smooth: sums of normals and tangents around them, and whether none of their faces has turned.
+    sums: Vec<Sum>,
+}
+
+/// What the faces around a vertex come to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    normal: Vec3,
+    tangent: Vec3,
+    turned: bool,
+}
+
+/// `v` with unit length; zero where it has none. The vector type's own calls a library for the square root where it is built
+/// for the same bits on every platform; a square root is exact everywhere.
+#[inline]
+fn unit(v: Vec3) -> Vec3 {
+    let length = v.length_squared().sqrt();
+    if length > 0.0 { v * (1.0 / length) } else { Vec3::ZERO }
 }
 
 /// The smallest rotation between two unit vectors, in the form `v + c x v + c x (c x v) / (1 + cosine)`.
@@ -57,62 +82,115 @@ impl Turn {
 }
 
 impl CornerFrames {
-    pub fn new(mesh: &FilmMesh) -> Self {
+    /// `mesh` may have torn and moved since it was at rest.
+    pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes) -> Self {
         let cross = |f| {
             let rest = |v| mesh.geometry.rest_positions[mesh.topology.original(v).index()];
             let [a, b, c] = mesh.topology.corners(f).map(rest);
             (b - a).cross(c - a)
         };
         Self {
-            rest_normals: mesh.topology.all_faces().map(|f| cross(f).normalize_or_zero()).collect(),
+            rest_normals: mesh.topology.all_faces().map(|f| unit(cross(f))).collect(),
             weights: mesh.topology.all_faces().map(|f| cross(f).length()).collect(),
-            turns: vec![Turn::default(); mesh.topology.face_count()],
+            turned: vec![false; mesh.topology.face_count()],
+            normals: vec![Vec3::ZERO; mesh.topology.half_edge_count()],
+            tangents: vec![Vec3::ZERO; attributes.tangents.len()],
+            smooth: smooth_vertices(mesh, attributes),
+            sums: Vec::new(),
         }
     }
 
-    /// Brings the rotations of all live faces up to date.
-    pub fn turn_faces(&mut self, mesh: &FilmMesh) {
-        for f in mesh.topology.live_faces() {
+    /// Brings what has moved up to date.
+    pub fn turn_faces(&mut self, mesh: &FilmMesh, attributes: &CornerAttributes, moves: &Moves) {
+        for f in mesh.topology.live_faces().filter(|&f| moves.has_moved(f)) {
             let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.geometry.positions[v.index()]);
-            let now = (b - a).cross(c - a).normalize_or_zero();
-            self.turns[f.index()] = Turn::between(self.rest_normals[f.index()], now);
+            let turn = Turn::between(self.rest_normals[f.index()], unit((b - a).cross(c - a)));
+            self.turned[f.index()] = !turn.is_still();
+            let weight = self.weights[f.index()];
+            for h in f.half_edges().map(|h| h.index()) {
+                self.normals[h] = turn.apply(attributes.normals[h]) * weight;
+                if let Some(tangent) = self.tangents.get_mut(h) {
+                    *tangent = turn.apply(attributes.tangents[h].truncate()) * weight;
+                }
+            }
+        }
+    }
+
+    /// Adds up what the faces around vertices with a turned face come to, in the order of faces: much quicker than going round
+    /// each vertex.
+    pub fn add_up(&mut self, topology: &Topology, moves: &Moves) {
+        let Self { turned, normals, tangents, smooth, sums, .. } = self;
+        sums.clear();
+        sums.resize(topology.vertex_count(), Sum::default());
+        for f in topology.live_faces() {
+            for h in f.half_edges() {
+                let v = topology.origin(h);
+                if moves.is_turned(v) && smooth[topology.original(v).index()] {
+                    let sum = &mut sums[v.index()];
+                    sum.turned |= turned[f.index()];
+                    sum.normal += normals[h.index()];
+                    if let Some(tangent) = tangents.get(h.index()) {
+                        sum.tangent += tangent;
+                    }
+                }
+            }
         }
     }
 
     /// Normal of the corner at the start of `h`.
     pub fn normal(&self, topology: &Topology, attributes: &CornerAttributes, h: HalfEdgeId) -> Vec3 {
-        let rest = attributes.normals[h.index()];
-        self.turned(topology, attributes, h, |g| attributes.normals[g.index()]).unwrap_or(rest)
+        let mean = self.mean(topology, attributes, h, &self.normals, |sum| sum.normal);
+        mean.unwrap_or(attributes.normals[h.index()])
     }
 
     /// Tangent of the corner at the start of `h`, perpendicular to `normal`.
     pub fn tangent(&self, topology: &Topology, attributes: &CornerAttributes, h: HalfEdgeId, normal: Vec3) -> Vec4 {
         let rest = attributes.tangents[h.index()];
-        let same = |g: HalfEdgeId| attributes.tangents[g.index()].truncate();
-        self.turned(topology, attributes, h, same).map_or(rest, |turned| {
-            let flat = turned - normal * turned.dot(normal);
-            flat.try_normalize().map_or(rest, |t| t.extend(rest.w))
+        self.mean(topology, attributes, h, &self.tangents, |sum| sum.tangent).map_or(rest, |turned| {
+            let flat = unit(turned - normal * turned.dot(normal));
+            if flat == Vec3::ZERO { rest } else { flat.extend(rest.w) }
         })
     }
 
-    /// Mean of `value` turned with each face around the corner's vertex that is smooth with it; `None` where none
+    /// Mean of the turned values of the faces around the corner's vertex that are smooth with it; `None` where none
     /// of them has turned.
-    fn turned(
+    #[inline]
+    fn mean(
         &self,
         topology: &Topology,
         attributes: &CornerAttributes,
         h: HalfEdgeId,
-        value: impl Fn(HalfEdgeId) -> Vec3,
+        values: &[Vec3],
+        of: impl Fn(&Sum) -> Vec3,
     ) -> Option<Vec3> {
-        let normal = attributes.normals[h.index()];
-        let (mut sum, mut still) = (Vec3::ZERO, true);
-        for g in topology.fan(topology.origin(h)) {
-            if attributes.normals[g.index()].abs_diff_eq(normal, SMOOTH) {
-                let turn = self.turns[g.face().index()];
-                still &= turn.is_still();
-                sum += turn.apply(value(g)) * self.weights[g.face().index()];
+        let v = topology.origin(h);
+        let (mut sum, mut turned) = (of(&self.sums[v.index()]), self.sums[v.index()].turned);
+        if !self.smooth[topology.original(v).index()] {
+            let normal = attributes.normals[h.index()];
+            for g in topology.fan(v).filter(|g| attributes.normals[g.index()].abs_diff_eq(normal, SMOOTH)) {
+                turned |= self.turned[g.face().index()];
+                sum += values[g.index()];
             }
         }
-        if still { None } else { sum.try_normalize() }
+        let mean = unit(sum);
+        (turned && mean != Vec3::ZERO).then_some(mean)
     }
+}
+
+/// For each original vertex whether all corners around it have one normal at rest.
+fn smooth_vertices(mesh: &FilmMesh, attributes: &CornerAttributes) -> Vec<bool> {
+    let topology = &mesh.topology;
+    let mut first = vec![HalfEdgeId::NONE; topology.original_vertex_count()];
+    let mut even = vec![true; first.len()];
+    let original = |h| topology.original(topology.origin(h)).index();
+    for h in topology.all_half_edges() {
+        let v = original(h);
+        if let Some(g) = first[v].get() {
+            // Half of what is smooth, so that any two of them are.
+            even[v] &= attributes.normals[h.index()].abs_diff_eq(attributes.normals[g.index()], 0.5 * SMOOTH);
+        } else {
+            first[v] = h;
+        }
+    }
+    even
 }

@@ -52,13 +52,19 @@ impl Wedges {
     /// Gives every wedge of every live vertex a vertex of its slot, in the order of vertices and of their fans.
     pub fn renew(&mut self, topology: &Topology, sides: &Sides) {
         let Self { rest, now, corners, .. } = self;
-        corners.resize(sides.slot_count(), Vec::new());
+        corners.resize_with(sides.slot_count(), Vec::new);
         corners.iter_mut().for_each(Vec::clear);
         now.clear();
         now.resize(topology.half_edge_count(), u32::MAX);
         for v in topology.all_vertices() {
+            let mut before = HalfEdgeId::NONE;
             for (i, h) in topology.fan(v).enumerate() {
-                let same = topology.fan(v).take(i).find(|g| rest[g.index()] == rest[h.index()]);
+                let wedge = rest[h.index()];
+                // Mostly that of the corner before.
+                let same = before
+                    .get()
+                    .filter(|g| rest[g.index()] == wedge)
+                    .or_else(|| topology.fan(v).take(i).find(|g| rest[g.index()] == wedge));
                 now[h.index()] = if let Some(g) = same {
                     now[g.index()]
                 } else {
@@ -66,6 +72,7 @@ impl Wedges {
                     corners.push(h);
                     corners.len() as u32 - 1
                 };
+                before = h;
             }
         }
     }
