@@ -449,6 +449,10 @@ impl FilmConstraints {
                 return Err(InvariantError::PointElsewhere(v));
             }
         }
+        let asleep = topology.all_vertices().filter(|&v| self.is_asleep(v)).count();
+        if asleep != self.points.asleep_count() {
+            return Err(InvariantError::ArrayLength("sleepers"));
+        }
         let mut counts = [0, 0];
         let mut users = vec![Vec::new(); self.regions.len()];
         for h in topology.all_half_edges().filter(|&h| topology.is_live(h.face())) {

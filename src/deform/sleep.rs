@@ -76,7 +76,7 @@ impl FilmConstraints {
             let quiet = place.distance_squared(rest.places[v]) < least * least;
             rest.places[v] = place;
             rest.quiet[v] = if quiet { rest.quiet[v].saturating_add(1) } else { 0 };
-            if !quiet {
+            if !quiet && self.points.asleep_count() > 0 {
                 for_neighbours(topology, VertexId::new(v), |n| {
                     if self.points.motion(n.index()) == Motion::Asleep {
                         rest.disturbed.push(n);

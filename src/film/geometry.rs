@@ -94,7 +94,8 @@ impl Geometry {
     /// Area of `f` at rest.
     pub fn rest_area_of(&self, topology: &Topology, f: FaceId) -> f32 {
         let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[topology.original(v).index()]);
-        (b - a).cross(c - a).length() * 0.5
+        // A square root is exact everywhere; the vector type's own may be a call of a library.
+        (b - a).cross(c - a).length_squared().sqrt() * 0.5
     }
 
     /// Height of `v` over the plane of its rest position, in the film's space; negative is below.
@@ -125,8 +126,12 @@ impl Geometry {
 /// cosine, which cannot tell the two folds apart and is not smooth when flat; this form is smooth everywhere
 /// but at fully folded pairs. `None` where a face has no area.
 pub fn signed_dihedral(p1: Vec3, p2: Vec3, p3: Vec3, p4: Vec3) -> Option<f32> {
-    let edge = (p2 - p1).try_normalize()?;
-    let n1 = (p2 - p1).cross(p3 - p1).try_normalize()?;
-    let n2 = (p1 - p2).cross(p4 - p2).try_normalize()?;
-    Some(PI + ops::atan2(edge.dot(n1.cross(n2)), n1.dot(n2)))
+    let edge = p2 - p1;
+    let length = edge.length_squared().sqrt();
+    let n1 = edge.cross(p3 - p1);
+    let n2 = edge.cross(p2 - p4);
+    // Both terms carry the lengths of both normals, which cancel out.
+    let (sine, cosine) = (edge.dot(n1.cross(n2)) / length, n1.dot(n2));
+    let whole = n1.length_squared() > 0.0 && n2.length_squared() > 0.0;
+    (whole && (sine != 0.0 || cosine != 0.0)).then(|| PI + ops::atan2(sine, cosine))
 }

@@ -10,8 +10,9 @@ use crate::{
     settings::DustSettings,
 };
 
-/// A vertex that has moved by less than this since its rate was found, in mean edges, keeps it.
-const STILL: f32 = 0.02;
+/// A vertex that has moved by less than this since its rate was found, in mean edges, keeps it: its film has turned by a
+/// few degrees at most.
+const STILL: f32 = 0.1;
 /// A change of gravity's direction below this keeps the rates.
 const SAME_GRAVITY: f32 = 1e-3;
 
@@ -41,6 +42,12 @@ pub fn dust_rate(factors: DustFactors, settings: &DustSettings) -> f32 {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct DustRates {
     rates: Vec<f32>,
+    /// Share of each film vertex that is clean after a tick if it was before.
+    left: Vec<f32>,
+    /// Tick that `left` and `metal` were found for.
+    dt: f32,
+    /// Of the metal under each original vertex: how open it lay, and the same share; openness 0 where it is not known.
+    metal: Vec<[f32; 2]>,
     /// Where each film vertex was when its rate was found.
     seen: Vec<Vec3>,
     /// Vertices whose rates are to be found anew.
@@ -76,26 +83,32 @@ pub fn settle_dust(
         rates.stale.clear();
         rates.seen.clear();
     }
+    if !begun || rates.dt != dt {
+        rates.dt = dt;
+        rates.left.clear();
+        rates.metal.clear();
+        rates.metal.resize(mesh.topology.original_vertex_count(), [0.0; 2]);
+    }
     rates.find(mesh, &basis);
     if settings.rate > 0.0 {
-        for (dust, rate) in stains.film.dust.iter_mut().zip(&rates.rates) {
-            settle(dust, rate * dt);
+        for (dust, left) in stains.film.dust.iter_mut().zip(&rates.left) {
+            *dust = 1.0 - (1.0 - *dust) * left;
         }
         for &v in &stains.open {
-            let original = VertexId(v);
-            let shape = Shape::at_rest(mesh, original, stains.copies.rest_fan(&mesh.topology, original));
-            // Under film that is still there less gathers.
-            let rate = basis.rate(mesh, original, shape) * stains.openness[v as usize];
-            settle(&mut stains.metal.dust[v as usize], rate * dt);
+            let (original, openness) = (VertexId(v), stains.openness[v as usize]);
+            let [known, left] = &mut rates.metal[v as usize];
+            if *known != openness {
+                let shape = Shape::at_rest(mesh, original, stains.copies.rest_fan(&mesh.topology, original));
+                // Under film that is still there less gathers.
+                (*known, *left) = (openness, ops::exp(-(basis.rate(mesh, original, shape) * openness * dt)));
+            }
+            let dust = &mut stains.metal.dust[v as usize];
+            *dust = 1.0 - (1.0 - *dust) * *left;
         }
         stains.revision = stains.revision.wrapping_add(1);
     }
     rates.basis = Some(basis);
     stains.dust_rates = rates;
-}
-
-fn settle(dust: &mut f32, amount: f32) {
-    *dust = 1.0 - (1.0 - *dust) * ops::exp(-amount);
 }
 
 impl DustRates {
@@ -108,7 +121,8 @@ impl DustRates {
 
     /// Finds the rates of vertices that are new, have moved or lie beside one that has.
     fn find(&mut self, mesh: &FilmMesh, basis: &Basis) {
-        let Self { rates, seen, stale, .. } = self;
+        let Self { rates, left, seen, stale, dt, .. } = self;
+        let dt = *dt;
         let (topology, positions) = (&mesh.topology, &mesh.geometry.positions);
         rates.resize(positions.len(), 0.0);
         stale.resize(positions.len(), true);
@@ -128,7 +142,12 @@ impl DustRates {
             *stale = false;
             let v = VertexId::new(i);
             rates[i] = basis.rate(mesh, v, Shape::now(mesh, v));
+            if let Some(left) = left.get_mut(i) {
+                *left = ops::exp(-(rates[i] * dt));
+            }
         }
+        let known = left.len();
+        left.extend(rates[known..].iter().map(|rate| ops::exp(-(rate * dt))));
     }
 }
 

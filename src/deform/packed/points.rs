@@ -90,6 +90,8 @@ pub struct Points {
     region_of: Vec<u16>,
     /// Awake points of each region.
     awake: Vec<Awake>,
+    /// Number of vertices that sleep.
+    asleep: usize,
 }
 
 /// The awake points of a region.
@@ -210,6 +212,11 @@ impl Points {
         self.awake.iter().map(|awake| awake.count).sum()
     }
 
+    /// Number of vertices that sleep.
+    pub fn asleep_count(&self) -> usize {
+        self.asleep
+    }
+
     /// Appends a duplicate of vertex `kept`.
     pub fn duplicate(&mut self, kept: usize) {
         let region = self.region_of(kept);
@@ -228,10 +235,11 @@ impl Points {
         (self.now[i], self.before[i], self.planes[i], self.vertices[i]) = (at, before, plane, v as u32);
         self.places.push(place);
         if self.motions[kept] == Motion::Awake {
-            self.motions.push(Motion::Asleep);
+            self.motions.push(Motion::Attached);
             self.wake(v);
         } else {
             self.motions.push(self.motions[kept]);
+            self.asleep += usize::from(self.motions[kept] == Motion::Asleep);
         }
     }
 
@@ -240,6 +248,7 @@ impl Points {
         if self.motions[v] == Motion::Awake {
             return;
         }
+        self.asleep -= usize::from(self.motions[v] == Motion::Asleep);
         self.motions[v] = Motion::Awake;
         let place = self.places[v];
         self.now[place.index()].0[3] = 1.0;
@@ -248,11 +257,13 @@ impl Points {
 
     /// Vertex `v` falls asleep; to be followed by [`Self::settle`].
     pub fn rest(&mut self, v: usize) {
+        self.asleep += usize::from(self.motions[v] != Motion::Asleep);
         self.motions[v] = Motion::Asleep;
     }
 
     /// Vertex `v` has no faces left; to be followed by [`Self::settle`].
     pub fn leave(&mut self, v: usize) {
+        self.asleep -= usize::from(self.motions[v] == Motion::Asleep);
         self.motions[v] = Motion::Gone;
     }
 
