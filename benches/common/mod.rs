@@ -1,0 +1,45 @@
+//! Films to measure, made once per process.
+#![allow(dead_code, reason = "each bench uses its part")]
+
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use bevy_coating::{
+    deform::{FilmConstraints, follow_fracture},
+    film::{
+        FilmChanges, FilmMesh, VertexId,
+        build::sample::{self, TestPiece},
+    },
+};
+
+/// The flat test piece of so many triangles, side 1.
+pub fn plate(triangles: u32) -> Arc<TestPiece> {
+    static PLATES: Mutex<BTreeMap<u32, Arc<TestPiece>>> = Mutex::new(BTreeMap::new());
+    let mut plates = PLATES.lock().unwrap_or_else(PoisonError::into_inner);
+    let make = || Arc::new(sample::plate(triangles, 1).expect("a plate"));
+    plates.entry(triangles).or_insert_with(make).clone()
+}
+
+/// The film of that plate, at rest.
+pub fn film(triangles: u32) -> FilmMesh {
+    let film = &plate(triangles).film;
+    FilmMesh::new(film.positions.clone(), &film.triangles).expect("a manifold")
+}
+
+/// The first vertices of a plate from the left: those on so large a share of its area.
+pub fn left_share(mesh: &FilmMesh, share: f32) -> impl Iterator<Item = VertexId> + '_ {
+    let right = move |v: &VertexId| mesh.geometry.rest_positions[v.index()].x < share - 0.5;
+    mesh.topology.all_vertices().filter(move |v| share >= 1.0 || (share > 0.0 && right(v)))
+}
+
+/// The film of a plate and its constraints, after that share of it has separated from the metal.
+pub fn separated(triangles: u32, share: f32) -> (FilmMesh, FilmConstraints) {
+    let mesh = film(triangles);
+    let mut constraints = FilmConstraints::new(&mesh);
+    let mut changes = FilmChanges::default();
+    changes.separated.extend(left_share(&mesh, share));
+    follow_fracture(&mesh, &mut constraints, &changes);
+    (mesh, constraints)
+}

@@ -1,0 +1,70 @@
+//! What it takes to bring what is shown up to date with the film, each frame in which it took a step.
+//!
+//! All of the plate has separated, so that every face has a back and metal under it. In `moving` every vertex has moved
+//! since the last time, as when a whole film bends; in `still` nothing has, which must cost next to nothing beside it;
+//! `stained` moves nothing but the stains. `new` makes the parts from scratch, as once a prop. An item is a triangle.
+//! Handing the arrays to the engine comes on top; that is in the bench `plugin`.
+//!
+//! Run with `cargo bench --profile dev --bench show`.
+
+mod common;
+
+use bevy_coating::{film::build::sample::TestPiece, settings::CoatingSettings, shown::ShownFilm, sim::FilmState};
+use divan::{Bencher, counter::ItemsCount};
+
+const SIZES: [u32; 3] = [3_000, 10_000, 100_000];
+
+fn main() {
+    divan::main();
+}
+
+/// The film of a plate that has come off the metal.
+fn separated(piece: &TestPiece) -> FilmState {
+    let mut film = FilmState::new(&piece.film, &CoatingSettings::default(), 1, 1000).expect("a manifold");
+    film.forces.separated_age.fill(0.0);
+    film.forces.touch_all();
+    film
+}
+
+fn shown(piece: &TestPiece, film: &FilmState) -> ShownFilm {
+    ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains)
+}
+
+/// Updates what is shown after each `change` of the film.
+fn update(bencher: Bencher, triangles: u32, change: impl Fn(&mut FilmState, f32)) {
+    let piece = common::plate(triangles);
+    let mut film = separated(&piece);
+    let mut shown = shown(&piece, &film);
+    let mut sign = 1.0;
+    bencher.counter(ItemsCount::new(triangles)).bench_local(|| {
+        sign = -sign;
+        change(&mut film, sign);
+        shown.update(&film.mesh, &film.forces, &film.stains)
+    });
+}
+
+#[divan::bench(args = SIZES)]
+fn moving(bencher: Bencher, triangles: u32) {
+    update(bencher, triangles, |film, sign| {
+        for (i, p) in film.mesh.geometry.positions.iter_mut().enumerate() {
+            p.z += sign * 1e-3 * (1 + i % 3) as f32;
+        }
+    });
+}
+
+#[divan::bench(args = SIZES)]
+fn still(bencher: Bencher, triangles: u32) {
+    update(bencher, triangles, |_, _| {});
+}
+
+#[divan::bench(args = SIZES)]
+fn stained(bencher: Bencher, triangles: u32) {
+    update(bencher, triangles, |film, _| film.stains.revision = film.stains.revision.wrapping_add(1));
+}
+
+#[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]
+fn new(bencher: Bencher, triangles: u32) {
+    let piece = common::plate(triangles);
+    let film = separated(&piece);
+    bencher.counter(ItemsCount::new(triangles)).bench_local(|| shown(&piece, &film));
+}
