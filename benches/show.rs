@@ -1,8 +1,8 @@
 //! What it takes to bring what is shown up to date with the film, each frame in which it took a step.
 //!
 //! All of the plate has separated, so that every face has a back and metal under it. In `moving` every vertex has moved
-//! since the last time, as when a whole film bends; in `still` nothing has, which must cost next to nothing beside it;
-//! `stained` moves nothing but the stains. `new` makes the parts from scratch, as once a prop. An item is a triangle.
+//! since the last time, as when a whole film bends; in `still` nothing has (the plugin does not ask then); `stained`
+//! changes nothing but the stains. `new` makes the parts from scratch, as once a prop. An item is a triangle.
 //! Handing the arrays to the engine comes on top; that is in the bench `plugin`.
 //!
 //! Run with `cargo bench --profile dev --bench show`.
