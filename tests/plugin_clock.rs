@@ -123,7 +123,7 @@ fn the_budget_bounds_the_steps_of_a_frame_and_drops_the_rest() {
 #[test]
 fn a_budget_without_time_still_takes_one_step() {
     let mut app = app();
-    app.insert_resource(CoatingBudget { max_time: Duration::ZERO, max_steps: 0 });
+    app.insert_resource(CoatingBudget { max_time: Duration::ZERO, max_steps: 0, ..CoatingBudget::default() });
     let plate = ready_plate(&mut app, quick_coating());
     clock(&mut app).request_steps(5);
     for frame in 1..=5 {

@@ -51,7 +51,7 @@ pub fn add(app: &mut App, args: &SceneArgs, folder: PathBuf, shots: Vec<Shot>) {
         clock.age_per_second = 1e3;
         clock.target_age = Some(0.0);
     })
-    .insert_resource(CoatingBudget { max_time: Duration::from_secs(4), max_steps: 1_000 })
+    .insert_resource(CoatingBudget { max_time: Duration::from_secs(4), max_steps: 1_000, ..CoatingBudget::default() })
     .add_systems(Startup, spawn_camera)
     .add_systems(Last, run);
 }

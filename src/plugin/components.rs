@@ -69,6 +69,14 @@ pub struct FilmPace {
     pub(super) due: bool,
     /// Whether the first crack has been reported.
     pub(super) cracked: bool,
+    /// Middle and radius of the film at rest, in its own space.
+    pub(super) bounds: (Vec3, f32),
+    /// Gained while it waits for its turn.
+    pub(super) credit: f32,
+    /// Whether the frame has no time for it.
+    pub(super) waits: bool,
+    /// What a step is taken to cost, in moving vertices.
+    pub(super) cost: u64,
 }
 
 impl FilmPace {
@@ -86,6 +94,10 @@ impl FilmPace {
             held: false,
             due: false,
             cracked,
+            bounds: (Vec3::ZERO, 0.0),
+            credit: 0.0,
+            waits: false,
+            cost: 0,
         }
     }
 

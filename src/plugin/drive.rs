@@ -16,6 +16,7 @@ use super::{
     CoatingBudget, CoatingClock, CoatingGravity, CoatingStatus, CoatingStep, CoatingWeather, FilmPace,
     components::{AwaitingFilm, FilmRefused, FilmSlot},
     shelter::FilmShelter,
+    turns::{BACKLOG_FRAMES, Cameras, StepCost, Waiting, choose},
 };
 use crate::{sim::FilmClock, stain::StainFields};
 
@@ -30,7 +31,7 @@ type Films = QueryState<(
 
 /// Plans the steps of this frame for every film and takes them.
 ///
-/// Steps of slower films are spread evenly between those of the fastest, so that their pace keeps its ratio
+/// Films for which the frame has no time [wait](super::turns) for theirs. Steps of slower films are spread evenly between those of the fastest, so that their pace keeps its ratio
 /// wherever the budget cuts the frame short.
 pub(super) fn advance(
     world: &mut World,
@@ -38,24 +39,33 @@ pub(super) fn advance(
     waiting: &mut QueryState<(), With<AwaitingFilm>>,
     refused: &mut QueryState<(), With<FilmRefused>>,
     building: &mut QueryState<&FilmSlot>,
+    turns: &mut Waiting,
+    cameras: &mut Cameras,
 ) {
     let begin = Instant::now();
     let budget = *world.resource::<CoatingBudget>();
-    let rounds = plan(world, films);
+    plan(world, films);
+    let rounds = choose(world, turns, cameras, budget);
     let mut taken = 0;
     while taken < rounds && taken < u64::from(budget.max_steps.max(1)) {
-        if taken > 0 && begin.elapsed() >= budget.max_time {
+        if taken > 0 && budget.fixed_cost.is_none() && begin.elapsed() >= budget.max_time {
             break;
         }
+        let mut work = 0;
         for (mut pace, ..) in films.iter_mut(world) {
             let pace = pace.bypass_change_detection();
-            pace.due = is_due(taken, pace.planned, rounds);
+            pace.due = !pace.waits && is_due(taken, pace.planned, rounds);
             pace.taken += u64::from(pace.due);
+            work += if pace.due { pace.cost } else { 0 };
         }
+        world.resource_mut::<StepCost>().count(work);
         world.run_schedule(CoatingStep);
         taken += 1;
     }
-    let mut status = settle(world, films);
+    if taken > 0 {
+        world.resource_mut::<StepCost>().learn(begin.elapsed());
+    }
+    let mut status = settle(world, films, budget);
     status.waiting = waiting.iter(world).count() + building.iter(world).filter(|slot| slot.shown.is_none()).count();
     status.refused = refused.iter(world).count();
     let mut current = world.resource_mut::<CoatingStatus>();
@@ -68,8 +78,8 @@ fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
     until(round + 1) > until(round)
 }
 
-/// Plans each film's steps; gives the largest number of them.
-fn plan(world: &mut World, films: &mut Films) -> u64 {
+/// Plans each film's steps.
+fn plan(world: &mut World, films: &mut Films) {
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
     let gravity = *world.resource::<CoatingGravity>();
     let weather = *world.resource::<CoatingWeather>();
@@ -79,7 +89,6 @@ fn plan(world: &mut World, films: &mut Films) -> u64 {
         let age = if clock.paused { 0.0 } else { clock.age_per_second * seconds };
         (age, clock.target_age, std::mem::take(&mut clock.requested_steps))
     };
-    let mut rounds = 0;
     for (mut pace, clock, transform, mut shelter, mut stains) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.environment = weather.environment(gravity, transform);
@@ -105,13 +114,12 @@ fn plan(world: &mut World, films: &mut Films) -> u64 {
         pace.held &= planned > 0;
         pace.planned = if pace.held { 0 } else { planned };
         pace.taken = 0;
-        rounds = rounds.max(pace.planned);
     }
-    rounds
 }
 
 /// Books the steps that were taken, requested ones first, and drops what is owed beyond them.
-fn settle(world: &mut World, films: &mut Films) -> CoatingStatus {
+fn settle(world: &mut World, films: &mut Films, budget: CoatingBudget) -> CoatingStatus {
+    let backlog = f64::from(budget.max_steps.max(1).saturating_mul(BACKLOG_FRAMES));
     let mut status = CoatingStatus { youngest: f64::INFINITY, ..CoatingStatus::default() };
     for (mut pace, clock, ..) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
@@ -119,13 +127,17 @@ fn settle(world: &mut World, films: &mut Films) -> CoatingStatus {
         let requested = pace.taken.min(pace.requested);
         pace.requested -= requested;
         pace.owed -= (pace.taken - requested) as f64;
-        if !pace.held {
+        if pace.waits {
+            // Its turn comes; what it owes by then it takes together, but no more than a few frames' worth.
+            pace.owed = if pace.owed > backlog { backlog } else { pace.owed };
+        } else if !pace.held {
             // What was planned but not taken is dropped; an infinite speed leaves nothing to carry.
             pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
         }
         status.films += 1;
         status.casting += usize::from(pace.held);
         status.stepped += usize::from(pace.taken > 0);
+        status.postponed += usize::from(pace.waits);
         status.youngest = status.youngest.min(clock.age());
         status.oldest = status.oldest.max(clock.age());
     }

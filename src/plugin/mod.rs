@@ -13,6 +13,7 @@ mod report;
 mod schedule;
 mod shelter;
 mod step;
+mod turns;
 mod weather;
 
 use bevy::{
@@ -85,6 +86,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<CoatingGravity>()
             .init_resource::<CoatingWeather>()
             .init_resource::<CoatingStatus>()
+            .init_resource::<turns::StepCost>()
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
             .add_message::<FirstCrack>()

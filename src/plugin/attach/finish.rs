@@ -55,6 +55,7 @@ pub(super) fn finish_builds(
                 let triangles = mesh.topology.face_count();
                 let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
                 (pace.rate, pace.paused, pace.quality) = (coating.rate, coating.paused, coating.quality);
+                pace.bounds = crate::plugin::turns::bounds(&mesh.geometry);
                 shelter.choice = coating.shelter;
                 let handles = display.put_on(&mut assets);
                 for (&slot, handle) in build.slots.iter().zip(handles) {
