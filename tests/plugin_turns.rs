@@ -7,7 +7,6 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy_coating::{
     plugin::{CoatingBudget, CoatingClock, CoatingStatus},
-    prelude::*,
     sim::FilmClock,
 };
 use common::*;

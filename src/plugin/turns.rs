@@ -102,7 +102,7 @@ fn take_turns(
     films: &mut Waiting,
     cameras: &mut Cameras,
     time: Duration,
-    order: &mut Vec<Turn>,
+    order: &mut [Turn],
 ) -> u64 {
     let eyes: Vec<Vec3> =
         cameras.iter(world).filter(|(camera, _)| camera.is_active).map(|(_, at)| at.translation()).collect();
