@@ -11,12 +11,11 @@ mod common;
 use std::f32::consts::TAU;
 
 use bevy_coating::{
-    film::{
-        FilmMesh,
-        build::{FilmResolution, Surface, build},
-    },
+    film::FilmMesh,
+    remesh::{FilmResolution, build_film},
     settings::CoatingSettings,
     sim::FilmState,
+    surface::Surface,
 };
 use bevy_math::{Vec3, ops};
 use divan::{Bencher, counter::ItemsCount};

@@ -9,7 +9,7 @@
 
 mod common;
 
-use bevy_coating::{film::build::sample::TestPiece, settings::CoatingSettings, shown::ShownFilm, sim::FilmState};
+use bevy_coating::{appearance::FilmAppearance, remesh::sample::TestPiece, settings::CoatingSettings, sim::FilmState};
 use divan::{Bencher, counter::ItemsCount};
 
 const SIZES: [u32; 3] = [3_000, 10_000, 100_000];
@@ -26,8 +26,8 @@ fn separated(piece: &TestPiece) -> FilmState {
     film
 }
 
-fn shown(piece: &TestPiece, film: &FilmState) -> ShownFilm {
-    ShownFilm::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains)
+fn shown(piece: &TestPiece, film: &FilmState) -> FilmAppearance {
+    FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains)
 }
 
 /// Updates what is shown after each `change` of the film.

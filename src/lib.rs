@@ -84,16 +84,53 @@
 // What a user gives must end in a typed error, never in a panic.
 #![warn(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::unreachable)]
 
+#[cfg(feature = "plugin")]
+mod api;
+pub mod appearance;
+#[cfg(feature = "plugin")]
+mod attach;
 pub mod deform;
+#[cfg(feature = "plugin")]
+mod display;
 pub mod film;
 pub mod fracture;
-pub mod plugin;
+#[cfg(feature = "plugin")]
+mod mesh_reader;
+#[cfg(feature = "plugin")]
+mod plugin;
 pub mod prelude;
-mod render;
+pub mod remesh;
 pub mod settings;
-mod settings_asset;
-pub mod shown;
+#[cfg(feature = "plugin")]
+mod shelter;
 pub mod sim;
 pub mod stain;
+#[cfg(feature = "plugin")]
+mod stepping;
+pub mod surface;
 
-pub use settings_asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
+#[cfg(feature = "plugin")]
+pub use api::{
+    budget::CoatingBudget,
+    clock::{CoatingClock, CoatingGravity, DEFAULT_AGE_PER_SECOND},
+    coating::{Coating, DEFAULT_TRIANGLES, SettingsSource},
+    diagnostics,
+    error::{CoatingError, CoatingFault},
+    film_pace::FilmPace,
+    links::{CoatedBy, CoatingPart},
+    messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+    revision::FilmRevision,
+    shelter::{RainShelter, Shelter},
+    stain_display::StainDisplay,
+    status::CoatingStatus,
+    system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
+    weather::CoatingWeather,
+};
+#[cfg(feature = "plugin")]
+pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
+#[cfg(feature = "render")]
+pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+#[cfg(feature = "plugin")]
+pub use plugin::CoatingWeatheringPlugin;
+#[cfg(feature = "plugin")]
+pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};

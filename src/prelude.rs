@@ -1,14 +1,27 @@
 //! All that most games need: `use bevy_coating::prelude::*;`
 
+#[cfg(feature = "plugin")]
 pub use crate::{
-    deform::SolverQuality,
-    film::build::{BuildWarning, FilmResolution},
-    plugin::{
-        CoatedBy, Coating, CoatingBudget, CoatingClock, CoatingError, CoatingFault, CoatingGravity, CoatingStatus,
-        CoatingStep, CoatingSystems, CoatingWeather, CoatingWeatheringPlugin, FilmFailed, FilmReady, FirstCrack,
-        MetalLook, PieceFallen, RainShelter, SettingsSource, Shelter, StainDisplay,
+    api::{
+        budget::CoatingBudget,
+        clock::{CoatingClock, CoatingGravity},
+        coating::{Coating, SettingsSource},
+        error::{CoatingError, CoatingFault},
+        links::CoatedBy,
+        messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+        shelter::{RainShelter, Shelter},
+        stain_display::StainDisplay,
+        status::CoatingStatus,
+        system_sets::{CoatingStep, CoatingSystems},
+        weather::CoatingWeather,
     },
+    plugin::CoatingWeatheringPlugin,
+};
+pub use crate::{
+    appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
+    deform::SolverQuality,
+    remesh::FilmResolution,
     settings::CoatingSettings,
-    shown::look::StainLook,
     sim::FilmClock,
+    surface::BuildWarning,
 };

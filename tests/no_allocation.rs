@@ -6,7 +6,7 @@ use std::{
 };
 
 use bevy_coating::{
-    deform::SolverQuality, film::build::sample, settings::CoatingSettings, sim::FilmState, stain::Environment,
+    deform::SolverQuality, remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment,
 };
 
 thread_local! {

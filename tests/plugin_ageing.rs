@@ -9,12 +9,7 @@ use bevy::{
     prelude::*,
     time::TimeUpdateStrategy,
 };
-use bevy_coating::{
-    film::build::{Surface, build},
-    prelude::*,
-    sim::FilmState,
-    stain::Environment,
-};
+use bevy_coating::{prelude::*, remesh::build_film, sim::FilmState, stain::Environment, surface::Surface};
 use common::*;
 
 /// The plate's film and settings, without an app.

@@ -7,7 +7,7 @@ use bevy::{
     mesh::{Indices, PrimitiveTopology, VertexAttributeValues, skinning::SkinnedMesh},
     prelude::*,
 };
-use bevy_coating::{film::FilmMesh, film::build::BuildError, plugin::CoatingPart, prelude::*};
+use bevy_coating::{CoatingPart, film::FilmMesh, prelude::*, surface::BuildError};
 use common::*;
 
 fn films(app: &mut App) -> Vec<(Entity, Entity)> {
@@ -183,7 +183,7 @@ fn a_changed_coating_is_followed_at_once_or_by_a_new_film() {
     coating.rate = 3.0;
     updates(&mut app, 2);
     assert_eq!(film_state(&app, plate).clock.steps, 50, "settings and rate need no new film");
-    let pace = app.world().get::<bevy_coating::plugin::FilmPace>(plate).expect("a film");
+    let pace = app.world().get::<bevy_coating::FilmPace>(plate).expect("a film");
     assert_eq!((pace.rate, pace.settings.adhesion.decay), (3.0, 0.6));
     app.world_mut().get_mut::<Coating>(plate).expect("a coating").seed = 8;
     update_until(&mut app, |app| app.world().get::<FilmClock>(plate).is_some_and(|clock| clock.steps == 0));
@@ -219,8 +219,7 @@ fn settings_can_be_an_asset() {
     };
     insert(&mut app, &settings);
     wait_for_films(&mut app, 1);
-    let decay =
-        |app: &App| app.world().get::<bevy_coating::plugin::FilmPace>(plate).expect("a film").settings.adhesion.decay;
+    let decay = |app: &App| app.world().get::<bevy_coating::FilmPace>(plate).expect("a film").settings.adhesion.decay;
     assert_eq!(decay(&app), 2.5);
     settings.adhesion.decay = 3.5;
     insert(&mut app, &settings);

@@ -8,7 +8,7 @@ use bevy::{
     diagnostic::{Diagnostic, DiagnosticPath, DiagnosticsStore},
     prelude::*,
 };
-use bevy_coating::{plugin::diagnostics, prelude::*, sim::FilmClock};
+use bevy_coating::{diagnostics, prelude::*, sim::FilmClock};
 use common::*;
 
 fn steps(app: &App, film: Entity) -> u64 {

@@ -13,7 +13,7 @@ use bevy::{
     prelude::*,
     render::render_resource::{AsBindGroup, Face},
 };
-use bevy_coating::{plugin::CoatingPart, prelude::*};
+use bevy_coating::{CoatingPart, prelude::*};
 use common::*;
 
 /// The app with standard materials, but nothing to draw them.
@@ -85,7 +85,7 @@ fn backs_and_metal_come_with_the_first_separation_and_go_with_the_coating() {
         }
     };
     let grey = backs(&mut app);
-    app.world_mut().get_mut::<Coating>(film).expect("a coating").primer = Color::BLACK;
+    app.world_mut().get_mut::<Coating>(film).expect("a coating").shading.primer = Color::BLACK.into();
     app.update();
     let black = backs(&mut app);
     let sum = |c: &[f32; 4]| c[0] + c[1] + c[2];

@@ -4,9 +4,7 @@ mod common;
 
 use bevy::{mesh::VertexAttributeValues, prelude::*};
 use bevy_coating::{
-    plugin::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, FilmRevision},
-    prelude::*,
-    stain::StainFields,
+    ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, FilmRevision, prelude::*, stain::StainFields,
 };
 use common::*;
 
@@ -101,7 +99,7 @@ fn a_changed_look_is_shown_and_an_unchanged_one_touches_nothing() {
     app.update();
     app.update();
     assert_eq!(messages::<AssetEvent<Mesh>>(&mut app).len(), 0, "a coating that is the same");
-    app.world_mut().get_mut::<Coating>(film).expect("a coating").stain_look.rust_thick = Vec3::ZERO;
+    app.world_mut().get_mut::<Coating>(film).expect("a coating").shading.stains.rust_thick = Vec3::ZERO;
     app.update();
     let after = colors(&shown(&app, film));
     let darker = before.iter().zip(&after).filter(|((p, b), (_, a))| p.x > 0.5 && a[0] < b[0]).count();

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use bevy::{prelude::*, time::TimeUpdateStrategy};
 use bevy_coating::{
-    plugin::FilmPace,
+    FilmPace,
     prelude::*,
     sim::FilmState,
     stain::{Environment, Exposure},

@@ -13,10 +13,7 @@ use bevy::{
     prelude::*,
     render::render_resource::TextureFormat,
 };
-use bevy_coating::{
-    plugin::{CoatedMaterial, StainedMaterial},
-    prelude::*,
-};
+use bevy_coating::{CoatedMaterial, StainedMaterial, prelude::*};
 use common::{add_mesh, plate, quick_coating, update_until};
 use studio::Studio;
 

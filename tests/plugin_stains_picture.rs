@@ -11,8 +11,8 @@ mod studio;
 
 use bevy::{core_pipeline::prepass::*, pbr::DefaultOpaqueRendererMethod, prelude::*};
 use bevy_coating::{
-    plugin::{StainExtension, StainView, StainedMaterial},
-    shown::look::{StainLook, StainPart, StainPattern, StainSample, SurfaceLook},
+    StainExtension, StainView, StainedMaterial,
+    appearance::shading::{FilmShading, StainPart, StainPattern, StainSample, SurfaceShading},
 };
 use stained::*;
 use studio::{Picture, Studio};
@@ -28,7 +28,7 @@ macro_rules! need_adapter {
 }
 
 const SIZE: (u32, u32) = (320, 240);
-const BASE: SurfaceLook = SurfaceLook {
+const BASE: SurfaceShading = SurfaceShading {
     base_color: Vec3::new(0.5, 0.55, 0.45),
     metallic: 0.1,
     roughness: 0.4,
@@ -78,16 +78,16 @@ fn the_shader_draws_what_its_twin_says() {
     let mut studio = Studio::new(SIZE.0, SIZE.1, ".");
     for eye in [0.25, 1.0] {
         for part in [StainPart::Film, StainPart::Back, StainPart::Metal] {
-            let look = StainLook::default();
+            let shading = FilmShading::default();
             for view in [StainView::BaseColor, StainView::Surface] {
-                let extension = StainExtension { part, look: look.clone(), pattern: pattern(), view };
+                let extension = StainExtension { part, shading: shading.clone(), pattern: pattern(), view };
                 let material = StainedMaterial { base: base_material(), extension };
                 let plate = spawn_stained(&mut studio.app, stained_plate(1.2, 240, fields), material);
                 let picture = studio.shoot(Vec3::Z * eye, Vec3::ZERO);
                 save(&picture, &format!("twin_{part:?}_{view:?}_{eye}"));
                 let expected = |place: Vec3, footprint| {
                     let s = StainSample::new(fields(place), place, Vec3::Z);
-                    let found = look.part(part, BASE, &s, &pattern().with_footprint(footprint));
+                    let found = shading.part(part, BASE, &s, &pattern().with_footprint(footprint));
                     if view == StainView::BaseColor {
                         found.base_color
                     } else {
@@ -108,9 +108,9 @@ fn the_shader_draws_what_its_twin_says() {
 fn relief_bends_the_normal_as_the_height_says() {
     need_adapter!();
     let mut studio = Studio::new(SIZE.0, SIZE.1, ".");
-    let look = StainLook::default();
+    let shading = FilmShading::default();
     let part = StainPart::Metal;
-    let extension = StainExtension { part, look: look.clone(), pattern: pattern(), view: StainView::Normal };
+    let extension = StainExtension { part, shading: shading.clone(), pattern: pattern(), view: StainView::Normal };
     let material = StainedMaterial { base: base_material(), extension };
     spawn_stained(&mut studio.app, stained_plate(1.2, 120, |_| [0.0, 0.0, 0.0, 1.0]), material);
     let picture = studio.shoot(Vec3::Z * 0.2, Vec3::ZERO);
@@ -119,7 +119,7 @@ fn relief_bends_the_normal_as_the_height_says() {
     for (place, footprint, pixel) in picture.places(0.2) {
         let height = |p: Vec3| {
             let s = StainSample { corrosion: 1.0, rest: p, normal: Vec3::Z, ..default() };
-            look.metal(&s, &pattern().with_footprint(footprint)).height
+            shading.metal(&s, &pattern().with_footprint(footprint)).height
         };
         let step = 2e-5;
         let slope = |d: Vec3| (height(place + d * step) - height(place - d * step)) / (2.0 * step);

@@ -5,10 +5,7 @@ mod common;
 use std::time::Duration;
 
 use bevy::prelude::*;
-use bevy_coating::{
-    plugin::{CoatingBudget, CoatingClock, CoatingStatus},
-    sim::FilmClock,
-};
+use bevy_coating::{CoatingBudget, CoatingClock, CoatingStatus, sim::FilmClock};
 use common::*;
 
 /// So many steps a frame, if there is time.

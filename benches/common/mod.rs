@@ -8,10 +8,8 @@ use std::{
 
 use bevy_coating::{
     deform::{FilmConstraints, follow_fracture},
-    film::{
-        FilmChanges, FilmMesh, VertexId,
-        build::sample::{self, TestPiece},
-    },
+    film::{FilmChanges, FilmMesh, VertexId},
+    remesh::sample::{self, TestPiece},
 };
 
 /// The flat test piece of so many triangles, side 1.

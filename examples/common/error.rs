@@ -3,7 +3,7 @@
 
 use std::{io, path::PathBuf};
 
-use bevy_coating::film::{InvariantError, build::BuildError};
+use bevy_coating::{film::InvariantError, surface::BuildError};
 
 use super::{gltf::GltfError, obj::ObjError};
 

@@ -2,7 +2,7 @@
 
 use std::{ffi::OsStr, fmt, path::PathBuf};
 
-use bevy_coating::film::build::sample;
+use bevy_coating::remesh::sample;
 
 use super::{BakeError, MAX_TRIANGLES, Model, ModelMesh, Slot, gltf, obj};
 

@@ -1,6 +1,6 @@
 //! A prop as it was read: surfaces in scene space, and its materials.
 
-use bevy_coating::film::build::{BuiltFilm, Surface};
+use bevy_coating::{remesh::BuiltFilm, surface::Surface};
 use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
 

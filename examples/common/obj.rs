@@ -6,7 +6,7 @@
 
 use std::{fs, path::Path, str::FromStr};
 
-use bevy_coating::film::build::Surface;
+use bevy_coating::surface::Surface;
 use bevy_math::{DVec3, Vec2, Vec3, Vec4, ops};
 
 use super::{BakeError, Model, ModelMesh, Slot, model::centred};

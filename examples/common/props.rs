@@ -2,16 +2,17 @@
 
 use bevy_coating::{
     deform::SolverQuality,
-    film::build::{self, BuildError, BuildWarning, BuiltFilm, FilmResolution, Surface},
+    remesh::{BuiltFilm, FilmResolution},
     settings::CoatingSettings,
     sim::FilmState,
+    surface::{BuildError, BuildWarning, Surface},
 };
 use bevy_math::Vec3;
 
 use super::{BakeError, MaterialLibrary, Model, ModelMesh, Slot, parallel};
 
 /// Most triangles that can be asked for.
-pub const MAX_TRIANGLES: u32 = build::MAX_FILM_TRIANGLES as u32;
+pub const MAX_TRIANGLES: u32 = remesh::MAX_FILM_TRIANGLES as u32;
 
 /// Fewest triangles of a film, however small its share of the surface is.
 const LEAST_TRIANGLES: u32 = 12;
@@ -112,7 +113,7 @@ impl Job {
     fn run(&mut self, coating: &Coating) {
         let built = match self.mesh.film.take() {
             Some(film) => Ok(film),
-            None => build::build(&self.mesh.surface, self.resolution, self.seed),
+            None => remesh::build_film(&self.mesh.surface, self.resolution, self.seed),
         };
         self.result = Some(built.map(|built| {
             let mut film = FilmState::new(&built, coating.settings, self.seed, coating.steps_per_age);

@@ -3,7 +3,7 @@
 use bevy::asset::RenderAssetUsages;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
-use bevy_coating::film::build::Surface;
+use bevy_coating::surface::Surface;
 use std::f32::consts::FRAC_PI_4;
 
 /// Triangles with smooth normals, and texture coordinates without overlap: each of the six sides has a sixth of the texture.

@@ -3,7 +3,7 @@
 
 use crate::themes::{GUSTS, RAIN, Row, WIND};
 use bevy::prelude::*;
-use bevy_coating::plugin::CoatingAdvance;
+use bevy_coating::CoatingAdvance;
 use bevy_coating::prelude::*;
 use bevy_coating::stain::Environment;
 

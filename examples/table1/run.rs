@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use bevy_coating::{
+    appearance::FilmAppearance,
     deform::{SimdLevel, SolverQuality, sweeps_of_step},
     settings::CoatingSettings,
-    shown::ShownFilm,
     sim::{FilmState, Stage, StageTimes},
     stain::Environment,
 };
@@ -73,8 +73,8 @@ pub fn measure(model: &Loaded, args: &Args) -> Row {
 fn run(model: &Loaded, args: &Args) -> Row {
     let (settings, environment) = (CoatingSettings::default(), Environment::default());
     let mut films = model.coated.films.clone();
-    let mut shown: Vec<ShownFilm> = (films.iter().zip(&model.coated.props))
-        .map(|(film, prop)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
+    let mut shown: Vec<FilmAppearance> = (films.iter().zip(&model.coated.props))
+        .map(|(film, prop)| FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
         .collect();
     let whole: usize = films.iter().map(whole_constraints).sum();
     let mut times = StageTimes::default();

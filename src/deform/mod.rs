@@ -18,13 +18,13 @@
 pub mod bend;
 pub mod constraints;
 pub mod length;
-mod link;
 mod packed;
 pub mod plain;
 mod regions;
 pub mod rigid;
 mod sleep;
 pub mod solver;
+mod update;
 
 #[cfg(test)]
 mod tests;
@@ -32,6 +32,6 @@ mod tests;
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;
 pub use length::LengthConstraint;
-pub use link::follow_fracture;
 pub use packed::SimdLevel;
 pub use solver::{BendScratch, SolvePace, SolverQuality, bend_film, sweeps_and_momentum, sweeps_of_step};
+pub use update::update_constraints;

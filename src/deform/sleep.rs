@@ -22,7 +22,7 @@ const TICKS: u8 = 2;
 
 /// Where vertices were at the last tick, and for how many ticks they have been quiet.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct RestMarks {
+pub(super) struct SleepMarks {
     places: Vec<Vec3>,
     quiet: Vec<u8>,
     /// Vertices of loose pieces, all false between ticks.
@@ -35,7 +35,7 @@ pub(super) struct RestMarks {
     disturbed: Vec<VertexId>,
 }
 
-impl RestMarks {
+impl SleepMarks {
     pub fn new(vertices: usize) -> Self {
         Self {
             places: vec![Vec3::ZERO; vertices],
@@ -65,7 +65,7 @@ impl RestMarks {
 
 impl FilmConstraints {
     /// A tick: puts to sleep what has come to rest, and wakes what is disturbed. `limit` is that of the targets, in radians.
-    pub(super) fn doze(&mut self, mesh: &FilmMesh, loose: &LoosePieces, limit: f32) {
+    pub(super) fn put_to_sleep(&mut self, mesh: &FilmMesh, loose: &LoosePieces, limit: f32) {
         let topology = &mesh.topology;
         self.points.sort();
         let mut rest = std::mem::take(&mut self.rest);

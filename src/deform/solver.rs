@@ -1,5 +1,7 @@
 //! The solve of a step (VC 4.1): targets narrow, then sweeps, then loose pieces go back to their place.
 
+#[cfg(feature = "plugin")]
+use bevy::reflect::prelude::ReflectDefault;
 use bevy_math::Vec3;
 
 use super::{FilmConstraints, packed::SimdLevel, plain::PlainConstraints, rigid};
@@ -15,6 +17,12 @@ const LEAST_SWEEPS: f32 = 1000.0;
 ///
 /// All give much the same look; a film keeps its cracks, whatever the quality, as fracture is judged at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "plugin",
+    derive(bevy::reflect::Reflect),
+    reflect(Default, Debug, Clone, PartialEq, Hash),
+    type_path = "bevy_coating::deform"
+)]
 pub enum SolverQuality {
     /// One constraint after the other with the printed forms, nothing left out: to compare with.
     Reference,
@@ -139,7 +147,7 @@ pub fn bend_film(
         rigid::put_back(&mut mesh.geometry, loose, constraints, &scratch.before);
     }
     if pace.tick && pace.quality != SolverQuality::Reference {
-        constraints.doze(mesh, loose, settings.bend_limit);
+        constraints.put_to_sleep(mesh, loose, settings.bend_limit);
     }
 }
 

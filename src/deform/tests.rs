@@ -261,7 +261,7 @@ fn bent_disk(quality: SolverQuality, level: SimdLevel) -> (FilmMesh, FilmConstra
     let mut constraints = FilmConstraints::new(&mesh);
     let mut changes = FilmChanges::default();
     changes.separated.extend(mesh.topology.all_vertices().skip(7));
-    follow_fracture(&mesh, &mut constraints, &changes);
+    update_constraints(&mesh, &mut constraints, &changes);
     constraints.validate(&mesh, |v| v.0 < 7).unwrap();
     let settings = DeformSettings { narrowing_rate: 1e3, bend_limit: 10.0 / 180.0 * PI, ..DeformSettings::default() };
     let (mut changes, mut scratch) = (FilmChanges::default(), BendScratch::default());
@@ -315,7 +315,7 @@ fn loose_pieces_neither_drift_nor_spin() {
     let mut constraints = FilmConstraints::new(&mesh);
     let mut changes = FilmChanges::default();
     changes.separated.extend(mesh.topology.all_vertices());
-    follow_fracture(&mesh, &mut constraints, &changes);
+    update_constraints(&mesh, &mut constraints, &changes);
     rigid::remember(&mesh.geometry.positions, &loose, &constraints, &mut kept);
     let turn = bevy_math::Quat::from_axis_angle(Vec3::new(0.3, -0.5, 0.8).normalize(), 0.2);
     mesh.geometry.positions.iter_mut().for_each(|p| *p = turn * *p + Vec3::new(0.1, 0.2, 0.3));
@@ -348,7 +348,7 @@ fn cracks_through_a_sleeping_film_wake_it() {
     let mut constraints = FilmConstraints::new(&mesh);
     let mut changes = FilmChanges::default();
     changes.separated.extend(mesh.topology.all_vertices());
-    follow_fracture(&mesh, &mut constraints, &changes);
+    update_constraints(&mesh, &mut constraints, &changes);
     let mut loose = LoosePieces::default();
     loose.find(&mesh.topology, &mut PieceScratch::default(), |_| false);
     let settings = DeformSettings { bend_limit: 0.0, ..DeformSettings::default() };
@@ -368,7 +368,7 @@ fn cracks_through_a_sleeping_film_wake_it() {
         }
     }
     assert!(changes.duplicates.len() > 20);
-    follow_fracture(&mesh, &mut constraints, &changes);
+    update_constraints(&mesh, &mut constraints, &changes);
     mesh.validate().unwrap();
     constraints.validate(&mesh, |_| false).unwrap();
     assert!(constraints.awake_count() > changes.duplicates.len());

@@ -19,6 +19,7 @@ pub struct Debris {
 
 /// Changes of one step, in the order they happened. Cleared at the start of each step; the buffers are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmChanges {
     /// Vertices that separated.
     pub separated: Vec<VertexId>,

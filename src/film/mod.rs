@@ -4,7 +4,6 @@
 //! [`FilmMesh`]. Per-element quantities of the stages (forces, constraints, stains) are flat arrays of their
 //! own, indexed by the same handles.
 
-pub mod build;
 mod changes;
 mod edit;
 mod geometry;
@@ -28,6 +27,7 @@ pub(crate) mod tests;
 
 /// The film mesh of one coated prop.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmMesh {
     /// Connectivity.
     pub topology: Topology,

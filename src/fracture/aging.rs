@@ -1,6 +1,6 @@
 //! How forces age (VC 5.1, 5.2).
 
-use super::{FilmForces, foresight::Rates};
+use super::{FilmForces, predictions::Rates};
 use crate::{film::FilmMesh, settings::CoatingSettings};
 
 /// Ages the forces by `dt`: adhesion falls (VC 5.1), faster where the film is wet, contraction grows, and the bound
@@ -17,7 +17,7 @@ pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSe
         growth: per_step(settings.tearing.contraction_growth),
         decay: per_step(settings.tearing.binding_decay),
     };
-    forces.fallen += rates.fall;
+    forces.adhesion_lost += rates.fall;
     forces.grown += rates.growth;
     forces.decay += rates.decay;
     if wet_fall > 0.0 {
@@ -26,5 +26,5 @@ pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSe
             *base -= wet_fall * moisture;
         }
     }
-    forces.foresight.advance(rates);
+    forces.predictions.advance(rates);
 }

@@ -7,7 +7,7 @@ use bevy_math::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{adhesion_field, binding::Binding, foresight::Foresight, sigmoid};
+use super::{adhesion_field, binding::Binding, predictions::Predictions, sigmoid};
 use crate::{
     film::{FaceId, FilmMesh, FilmPieces, HalfEdgeId, InvariantError, LoosePieces, Topology, VertexId},
     settings::CoatingSettings,
@@ -21,6 +21,7 @@ const WEAK_EDGE_STREAM: u64 = 1;
 /// After changing one of the public fields by hand, call [`FilmForces::touch_all`]; the methods that set forces see to
 /// that themselves.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmForces {
     /// Age at which each vertex separated; infinite while attached.
     pub separated_age: Vec<f32>,
@@ -32,10 +33,10 @@ pub struct FilmForces {
     pub torn_edges: u32,
     /// Number of separations so far.
     pub separations: u32,
-    /// Adhesion of each vertex, but for `fallen`; where that is more, nothing is left.
+    /// Adhesion of each vertex, but for `adhesion_lost`; where that is more, nothing is left.
     pub(super) adhesion_bases: Vec<f32>,
     /// Adhesion that every vertex has lost so far.
-    pub(super) fallen: f64,
+    pub(super) adhesion_lost: f64,
     /// Contraction of each face, but for `grown`.
     pub(super) contraction_bases: Vec<f32>,
     /// Contraction that every face has gained so far.
@@ -48,7 +49,7 @@ pub struct FilmForces {
     pub(super) bend_weights: Vec<f32>,
     /// The gamma that `bend_weights` was computed with.
     pub(super) gamma: f32,
-    pub(super) foresight: Foresight,
+    pub(super) predictions: Predictions,
 }
 
 impl FilmForces {
@@ -102,13 +103,13 @@ impl FilmForces {
     /// Adhesion of `v` to the metal: 0 or more.
     #[inline]
     pub fn adhesion(&self, v: VertexId) -> f32 {
-        (self.adhesion_bases[v.index()] - self.fallen as f32).max(0.0)
+        (self.adhesion_bases[v.index()] - self.adhesion_lost as f32).max(0.0)
     }
 
     /// Sets the adhesion of `v` now; it goes on falling with age. Infinite: `v` never separates.
     pub fn set_adhesion(&mut self, v: VertexId, adhesion: f32) {
-        self.adhesion_bases[v.index()] = adhesion + self.fallen as f32;
-        self.foresight.separations.touch(v.0);
+        self.adhesion_bases[v.index()] = adhesion + self.adhesion_lost as f32;
+        self.predictions.separations.touch(v.0);
     }
 
     /// Contraction of `f`.
@@ -121,8 +122,8 @@ impl FilmForces {
     pub fn set_contraction(&mut self, topology: &Topology, f: FaceId, contraction: f32) {
         self.contraction_bases[f.index()] = contraction - self.grown as f32;
         for h in f.half_edges() {
-            self.foresight.separations.touch(topology.origin(h).0);
-            self.foresight.tears.touch(topology.edge(h).0);
+            self.predictions.separations.touch(topology.origin(h).0);
+            self.predictions.tears.touch(topology.edge(h).0);
         }
     }
 
@@ -141,7 +142,7 @@ impl FilmForces {
     pub fn set_binding(&mut self, topology: &Topology, h: HalfEdgeId, binding: f32) {
         let edge = topology.edge(h);
         self.bindings[edge.index()].set_force(binding, self.decay);
-        self.foresight.tears.touch(edge.0);
+        self.predictions.tears.touch(edge.0);
     }
 
     /// Direction of the crack that ends at `v`.
@@ -162,13 +163,13 @@ impl FilmForces {
 
     /// Has every vertex, edge and face looked at in the next step, whatever was predicted.
     pub fn touch_all(&mut self) {
-        self.foresight = Foresight { rates: self.foresight.rates, ..Foresight::default() };
+        self.predictions = Predictions { rates: self.predictions.rates, ..Predictions::default() };
     }
 
     /// Finds out which faces hang together, where that is not known.
     pub(super) fn find_pieces(&mut self, topology: &Topology) {
-        if !self.foresight.pieces.fits(topology) {
-            self.foresight.pieces = FilmPieces::new(topology, |v| self.separated_age[v.index()] == f32::INFINITY);
+        if !self.predictions.pieces.fits(topology) {
+            self.predictions.pieces = FilmPieces::new(topology, |v| self.separated_age[v.index()] == f32::INFINITY);
             self.loose = LoosePieces::default();
         }
     }
@@ -206,8 +207,8 @@ impl FilmForces {
                 return Err(InvariantError::Decay(h));
             }
         }
-        let known = self.foresight.pieces.fits(topology);
-        if known && !self.foresight.pieces.agrees(topology, &self.loose, |v| self.is_attached(v)) {
+        let known = self.predictions.pieces.fits(topology);
+        if known && !self.predictions.pieces.agrees(topology, &self.loose, |v| self.is_attached(v)) {
             return Err(InvariantError::Pieces);
         }
         Ok(())

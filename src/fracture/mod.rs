@@ -12,12 +12,12 @@
 //! happen is predicted, and pieces are followed edit by edit.
 
 mod adhesion;
-mod agenda;
 mod aging;
+mod balance;
 mod binding;
+mod event_queue;
 mod forces;
-mod foresight;
-mod overload;
+mod predictions;
 mod separation;
 mod stripping;
 mod tearing;

@@ -49,14 +49,14 @@ pub fn separate(
     let topology = &mesh.topology;
     forces.find_pieces(topology);
     let gain = settings.bending.gain;
-    // Duplicates have separated, so the agenda is of original vertices.
+    // Duplicates have separated, so the queue is of original vertices.
     let elements = topology.original_vertex_count();
-    let basis = forces.foresight.basis_of_separations(gain, forces.gamma);
-    let agenda = &mut forces.foresight.separations;
-    let mut due = if agenda.rests_on(basis, elements) {
-        agenda.take_due()
+    let basis = forces.predictions.basis_of_separations(gain, forces.gamma);
+    let queue = &mut forces.predictions.separations;
+    let mut due = if queue.rests_on(basis, elements) {
+        queue.take_due()
     } else {
-        agenda.restart(basis, elements, 0..elements as u32)
+        queue.restart(basis, elements, 0..elements as u32)
     };
     due.sort_unstable();
     for &v in &due {
@@ -68,15 +68,15 @@ pub fn separate(
         if ring.force > forces.adhesion(v) {
             forces.separated_age[v.index()] = age;
             forces.separations += 1;
-            forces.foresight.pieces.vertex_separated(topology, v);
+            forces.predictions.pieces.vertex_separated(topology, v);
             forces.touch_edges_at(topology, v);
             changes.separated.push(v);
         } else {
             let steps = ring.steps_until_separation(forces, v);
-            forces.foresight.separations.put_off(v.0, steps);
+            forces.predictions.separations.put_off(v.0, steps);
         }
     }
-    forces.foresight.separations.give_back(due);
+    forces.predictions.separations.give_back(due);
 }
 
 /// What the one-ring of a vertex does to it.
@@ -113,10 +113,10 @@ impl OneRing {
             return f64::INFINITY;
         }
         let base = f64::from(forces.adhesion_bases[v.index()].abs());
-        let rates = forces.foresight.rates;
+        let rates = forces.predictions.rates;
         // Each term of a sum may be off by half the last place of the largest, and so may each step while it is wet.
         let rounding = f64::from(f32::EPSILON * (self.edges + 8.0));
-        let slack = rounding * (force + lift * forces.grown + base + forces.fallen);
+        let slack = rounding * (force + lift * forces.grown + base + forces.adhesion_lost);
         let mut closing = lift * rates.growth;
         if adhesion > 0.0 {
             closing += rates.fall;

@@ -33,7 +33,7 @@ pub fn strip(
             strip_if_free(mesh, forces, h.face(), changes);
         }
     }
-    forces.foresight.pieces.renew(&mesh.topology, &mut forces.loose, &mut scratch.pieces);
+    forces.predictions.pieces.renew(&mesh.topology, &mut forces.loose, &mut scratch.pieces);
     if forces.loose.smallest().is_some_and(|faces| faces <= settings.fall_faces) {
         drop_pieces(mesh, forces, settings.fall_faces, changes);
         forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);

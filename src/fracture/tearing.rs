@@ -4,7 +4,7 @@ use bevy_math::Vec3;
 
 use super::{
     FilmForces,
-    overload::{Balance, direction},
+    balance::{Balance, direction},
 };
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, TearEnd, Topology, VertexId},
@@ -49,12 +49,12 @@ pub fn tear(
 ) {
     forces.find_pieces(&mesh.topology);
     let elements = mesh.topology.half_edge_count();
-    let basis = forces.foresight.basis_of_tears(settings.alpha, settings.beta);
-    let agenda = &mut forces.foresight.tears;
-    let due = if agenda.rests_on(basis, elements) {
-        agenda.take_due()
+    let basis = forces.predictions.basis_of_tears(settings.alpha, settings.beta);
+    let queue = &mut forces.predictions.tears;
+    let due = if queue.rests_on(basis, elements) {
+        queue.take_due()
     } else {
-        agenda.restart(basis, elements, mesh.topology.all_edges().map(|h| h.0))
+        queue.restart(basis, elements, mesh.topology.all_edges().map(|h| h.0))
     };
     scratch.candidates.clear();
     for &edge in &due {
@@ -62,7 +62,7 @@ pub fn tear(
             scratch.candidates.push(candidate);
         }
     }
-    forces.foresight.tears.give_back(due);
+    forces.predictions.tears.give_back(due);
     tear_in_order(mesh, forces, settings, gravity, changes, scratch);
 }
 
@@ -76,7 +76,7 @@ fn candidate(
     let balance = Balance::new(mesh, forces, settings, edge)?;
     let Some(overload) = balance.overload() else {
         let steps = balance.steps_until_tear(forces, edge);
-        forces.foresight.tears.put_off(edge.0, steps);
+        forces.predictions.tears.put_off(edge.0, steps);
         return None;
     };
     Some(Candidate { edge, alignment: balance.alignment, overload })
@@ -119,7 +119,7 @@ fn tear_in_order(
         if overloaded {
             tear_edge(mesh, forces, settings, edge, gravity, changes, pieces);
         } else {
-            forces.foresight.tears.touch(edge.0);
+            forces.predictions.tears.touch(edge.0);
         }
     }
 }
@@ -155,9 +155,9 @@ fn tear_edge(
             }
         }
     }
-    let FilmForces { foresight, separated_age, .. } = forces;
+    let FilmForces { predictions, separated_age, .. } = forces;
     let is_attached = |v: VertexId| separated_age[v.index()] == f32::INFINITY;
-    foresight.pieces.edge_torn(&mesh.topology, edge, &ends, scratch, is_attached);
+    predictions.pieces.edge_torn(&mesh.topology, edge, &ends, scratch, is_attached);
     forces.torn_edges += 1;
     changes.torn.push(edge);
     changes.torn_ends.push(ends);
@@ -169,7 +169,7 @@ impl FilmForces {
         // No two faces are bound along any other edge of the fan.
         for h in topology.fan(v).filter(|&h| topology.bound_twin(h).is_some()) {
             if !self.is_attached(topology.target(h)) {
-                self.foresight.tears.touch(topology.edge(h).0);
+                self.predictions.tears.touch(topology.edge(h).0);
             }
         }
     }
@@ -180,7 +180,7 @@ impl FilmForces {
         let binding = &mut self.bindings[edge.index()];
         if binding.torn_faces() != faces {
             binding.set_torn_faces(faces, self.decay);
-            self.foresight.tears.touch(edge.0);
+            self.predictions.tears.touch(edge.0);
         }
     }
 }

@@ -17,6 +17,8 @@
 //! # Ok::<(), bevy_coating::settings::SettingsError>(())
 //! ```
 
+#[cfg(feature = "plugin")]
+pub(crate) mod asset;
 mod error;
 mod field;
 mod presets;
@@ -28,7 +30,6 @@ mod tests;
 pub use error::{Place, SettingsError, SettingsErrorKind};
 pub use field::{Field, Range};
 pub use presets::PRESETS;
-pub(crate) use stages::with_stages;
 pub use stages::{
     AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
     StrippingSettings, TearingSettings,

@@ -5,6 +5,8 @@
 //! the result does not depend on how many steps cover the same age. "Found by trial" marks constants that the paper
 //! leaves open.
 
+#[cfg(feature = "plugin")]
+use bevy::reflect::prelude::{ReflectDefault, ReflectDeserialize, ReflectSerialize};
 use serde::Serialize;
 
 use super::{Field, Range};
@@ -146,7 +148,6 @@ macro_rules! with_stages {
         }
     };
 }
-pub(crate) use with_stages;
 
 /// A row's range in words, for the documentation.
 macro_rules! range_in_words {
@@ -182,6 +183,12 @@ macro_rules! define_stages {
         /// Stanford bunny. Reading checks names and ranges; after changing fields by hand, call
         /// [`CoatingSettings::validate`].
         #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+        #[cfg_attr(
+            feature = "plugin",
+            derive(bevy::asset::Asset, bevy::reflect::Reflect),
+            reflect(Clone, Debug, Default, PartialEq, Serialize, Deserialize),
+            type_path = "bevy_coating::settings"
+        )]
         pub struct CoatingSettings {
             $($(#[doc = $stage_doc])+ pub $stage: $Settings,)+
         }
@@ -189,6 +196,12 @@ macro_rules! define_stages {
         $(
             $(#[doc = $stage_doc])+
             #[derive(Clone, Debug, PartialEq, Serialize)]
+            #[cfg_attr(
+                feature = "plugin",
+                derive(bevy::reflect::Reflect),
+                reflect(Clone, Debug, Default, PartialEq, Serialize),
+                type_path = "bevy_coating::settings"
+            )]
             pub struct $Settings {
                 $(
                     $(#[doc = $doc])+

@@ -7,6 +7,7 @@ pub const DEFAULT_STEPS_PER_AGE: u32 = 1000;
 
 /// Counts the steps of one film. Age is counted in whole steps, so that it never drifts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmClock {
     /// Steps taken.
     pub steps: u64,

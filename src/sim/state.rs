@@ -5,8 +5,9 @@ use bevy_math::Vec3;
 use super::{FilmClock, Stage, StageTimes};
 use crate::{
     deform::{self, BendScratch, FilmConstraints, SolvePace, SolverQuality},
-    film::{FilmChanges, FilmMesh, InvariantError, VertexId, build::BuiltFilm},
+    film::{FilmChanges, FilmMesh, InvariantError, VertexId},
     fracture::{self, FilmForces, FractureScratch},
+    remesh::BuiltFilm,
     settings::CoatingSettings,
     stain::{self, Environment, StainFields},
 };
@@ -18,6 +19,7 @@ const PLANE_ROUNDING: f32 = 8.0 * f32::EPSILON;
 
 /// Buffers of a step, kept between steps. Holds nothing that matters from one step to the next.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct StepScratch {
     /// Of tearing and stripping.
     pub fracture: FractureScratch,
@@ -108,7 +110,7 @@ pub mod stage {
 
     /// Constraints follow fracture (VC 5, fig. 7).
     pub fn link(mesh: &FilmMesh, constraints: &mut FilmConstraints, changes: &FilmChanges) {
-        deform::follow_fracture(mesh, constraints, changes);
+        deform::update_constraints(mesh, constraints, changes);
     }
 
     /// PBD-2 (VC 4).
@@ -136,7 +138,7 @@ pub mod stage {
         settings: &CoatingSettings,
         environment: &Environment,
     ) {
-        stain::follow_fracture(mesh, stains, changes, environment.gravity);
+        stain::update_stains(mesh, stains, changes, environment.gravity);
         if let Some(dt) = clock.tick() {
             stain::run_off(mesh, stains, settings, environment, dt);
         }
@@ -170,7 +172,7 @@ pub mod stage {
 }
 
 impl FilmState {
-    /// A fresh film of `built`. `None` if it is no oriented manifold, which [`crate::film::build::build`] never
+    /// A fresh film of `built`. `None` if it is no oriented manifold, which [`crate::remesh::build_film`] never
     /// gives.
     pub fn new(built: &BuiltFilm, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Option<Self> {
         let mesh = FilmMesh::new(built.positions.clone(), &built.triangles).ok()?;

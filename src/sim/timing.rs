@@ -1,6 +1,8 @@
 //! Time spent in each stage, grouped as in the paper's Table 1.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 /// What time is spent on: the rows of VC Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

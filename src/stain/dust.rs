@@ -98,7 +98,7 @@ pub fn settle_dust(
             let (original, openness) = (VertexId(v), stains.openness[v as usize]);
             let [known, left] = &mut rates.metal[v as usize];
             if *known != openness {
-                let shape = Shape::at_rest(mesh, original, stains.copies.rest_fan(&mesh.topology, original));
+                let shape = Shape::at_rest(mesh, original, stains.duplicates.rest_fan(&mesh.topology, original));
                 // Under film that is still there less gathers.
                 (*known, *left) = (openness, ops::exp(-(basis.rate(mesh, original, shape) * openness * dt)));
             }

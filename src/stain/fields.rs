@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{copies::Copies, dust::DustRates, flow::Flow, sources::Catchments};
+use super::{duplicates::Duplicates, dust::DustRates, flow::Flow, sources::Catchments};
 use crate::film::FilmMesh;
 
 /// Fields of one surface: the film, one entry a vertex, duplicates included; or the metal, one entry an original
@@ -32,7 +32,7 @@ impl StainLayer {
         self.wet[i] + self.stained[i]
     }
 
-    /// Copies all that belongs to vertex `i` to a new vertex at the end, which has no area yet.
+    /// Duplicates all that belongs to vertex `i` to a new vertex at the end, which has no area yet.
     pub(super) fn duplicate(&mut self, i: usize) {
         self.wet.push(self.wet[i]);
         self.stained.push(self.stained[i]);
@@ -75,6 +75,7 @@ pub struct Exposure {
 
 /// All stains of one film and the metal under it (VC 6), and what their stages remember.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct StainFields {
     /// Stains on the film.
     pub film: StainLayer,
@@ -97,7 +98,7 @@ pub struct StainFields {
     pub(super) openness: Vec<f32>,
     /// Original vertices with any openness, in the order in which they opened.
     pub(super) open: Vec<u32>,
-    pub(super) copies: Copies,
+    pub(super) duplicates: Duplicates,
     pub(super) catchments: Catchments,
     pub(super) flow: Flow,
     pub(super) dust_rates: DustRates,
@@ -123,7 +124,7 @@ impl StainFields {
             corrosion: vec![0.0; vertices],
             sources: vec![RustSource::Never; vertices],
             openness: vec![0.0; vertices],
-            copies: Copies::new(topology),
+            duplicates: Duplicates::new(topology),
             catchments: Catchments::new(vertices),
             flow: Flow::new(vertices),
             ..Self::default()

@@ -3,7 +3,7 @@
 use bevy_math::Vec3;
 
 use super::{
-    copies::Copies,
+    duplicates::Duplicates,
     outflow::{Outflow, Ring},
 };
 use crate::film::{FilmMesh, VertexId};
@@ -55,8 +55,8 @@ impl Flow {
     }
 
     /// Connectivity at `original` changed.
-    pub fn stale(&mut self, copies: &Copies, original: VertexId) {
-        for v in copies.of(original) {
+    pub fn stale(&mut self, duplicates: &Duplicates, original: VertexId) {
+        for v in duplicates.of(original) {
             self.film[v.index()] = Outflow::STALE;
         }
         self.metal[original.index()] = Outflow::STALE;
@@ -138,29 +138,29 @@ impl Flow {
         self.order.get(rank).map(|&v| VertexId(v))
     }
 
-    /// The lowest of the copies of `original` along the pull; `None` where no face is left.
-    pub fn lowest(&mut self, mesh: &FilmMesh, copies: &Copies, original: VertexId) -> Option<VertexId> {
+    /// The lowest of the duplicates of `original` along the pull; `None` where no face is left.
+    pub fn lowest(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Option<VertexId> {
         let known = &mut self.lowest[original.index()];
         if *known == VertexId::NONE {
-            *known = copies.lowest(mesh, original, self.pull)?;
+            *known = duplicates.lowest(mesh, original, self.pull)?;
         }
         Some(*known)
     }
 
     /// Ways from film vertex `v`, a copy of `original`.
-    pub fn film_way(&mut self, mesh: &FilmMesh, copies: &Copies, original: VertexId, v: VertexId) -> Outflow {
+    pub fn film_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, v: VertexId) -> Outflow {
         if self.film[v.index()].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.film[v.index()] = Outflow::of_film(mesh, copies, original, v, way, &mut self.ring);
+            self.film[v.index()] = Outflow::of_film(mesh, duplicates, original, v, way, &mut self.ring);
         }
         self.film[v.index()]
     }
 
     /// Ways from the metal under `original`.
-    pub fn metal_way(&mut self, mesh: &FilmMesh, copies: &Copies, original: VertexId) -> Outflow {
+    pub fn metal_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Outflow {
         if self.metal[original.index()].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.metal[original.index()] = Outflow::of_metal(mesh, copies, original, way, &mut self.ring);
+            self.metal[original.index()] = Outflow::of_metal(mesh, duplicates, original, way, &mut self.ring);
         }
         self.metal[original.index()]
     }

@@ -68,7 +68,7 @@ pub fn moisten(
     for &v in &stains.open {
         let original = VertexId(v);
         let openness = stains.openness[v as usize];
-        let shape = Shape::at_rest(mesh, original, stains.copies.rest_fan(topology, original));
+        let shape = Shape::at_rest(mesh, original, stains.duplicates.rest_fan(topology, original));
         let airing = if openness < 1.0 { settings.crevice } else { 1.0 };
         apply(&mut stains.metal.moisture[v as usize], sky.tendency(shape, original, openness, airing));
     }
@@ -119,9 +119,9 @@ fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
         let Some(original) = stains.flow.at(rank) else { return };
         let mut next = Some(original);
         while let Some(v) = next {
-            next = stains.copies.after(v);
+            next = stains.duplicates.after(v);
             if stains.film.moisture[v.index()] > DRY && stains.film.dust[v.index()] > 0.0 {
-                let outflow = stains.flow.film_way(mesh, &stains.copies, original, v);
+                let outflow = stains.flow.film_way(mesh, &stains.duplicates, original, v);
                 let going = pace * stains.film.moisture[v.index()] * outflow.rate;
                 let dust = &mut stains.film.dust[v.index()];
                 let amount = *dust * going / (1.0 + going);
@@ -131,7 +131,7 @@ fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
         }
         let i = original.index();
         if stains.metal.moisture[i] > DRY && stains.metal.dust[i] > 0.0 {
-            let outflow = stains.flow.metal_way(mesh, &stains.copies, original);
+            let outflow = stains.flow.metal_way(mesh, &stains.duplicates, original);
             let going = pace * stains.metal.moisture[i] * outflow.rate;
             let amount = stains.metal.dust[i] * going / (1.0 + going);
             stains.metal.dust[i] -= amount;

@@ -7,7 +7,7 @@
 
 use bevy_math::Vec3;
 
-use super::{LEAST_PULL, copies::Copies};
+use super::{LEAST_PULL, duplicates::Duplicates};
 use crate::film::{FilmMesh, VertexId};
 
 /// Most ways from one vertex.
@@ -85,7 +85,7 @@ impl Outflow {
     /// into the crack.
     pub fn of_film(
         mesh: &FilmMesh,
-        copies: &Copies,
+        duplicates: &Duplicates,
         original: VertexId,
         v: VertexId,
         way: Way,
@@ -110,14 +110,14 @@ impl Outflow {
             return outflow;
         }
         // An edge of the prop itself: there is nothing on the other side to go to.
-        let whole = copies.rest_fan(topology, original).count() == topology.fan(v).count();
-        if whole && !closed && !copies.is_inner(topology, original) {
+        let whole = duplicates.rest_fan(topology, original).count() == topology.fan(v).count();
+        if whole && !closed && !duplicates.is_inner(topology, original) {
             return outflow;
         }
         if closed {
             return outflow;
         }
-        match copies.lowest(mesh, original, pull) {
+        match duplicates.lowest(mesh, original, pull) {
             Some(below) if below != v => {
                 outflow.add(Target::film(below), over * (1.0 - into_cracks));
                 outflow.add(Target::metal(original), over * into_cracks);
@@ -128,14 +128,14 @@ impl Outflow {
     }
 
     /// Ways from the metal under `original`: over bare metal, and where film covers it further down, out onto the film.
-    pub fn of_metal(mesh: &FilmMesh, copies: &Copies, original: VertexId, way: Way, ring: &mut Ring) -> Self {
+    pub fn of_metal(mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, way: Way, ring: &mut Ring) -> Self {
         let (pull, ..) = way;
         let topology = &mesh.topology;
         let rest = &mesh.geometry.rest_positions;
         let to = |w: VertexId| {
             let w = topology.original(w);
-            let bare = copies.rest_fan(topology, w).any(|h| !topology.is_live(h.face()));
-            let target = match copies.lowest(mesh, w, pull) {
+            let bare = duplicates.rest_fan(topology, w).any(|h| !topology.is_live(h.face()));
+            let target = match duplicates.lowest(mesh, w, pull) {
                 Some(film) if !bare => Target::film(film),
                 _ => Target::metal(w),
             };
@@ -143,11 +143,11 @@ impl Outflow {
         };
         ring.clear();
         let mut last = None;
-        for h in copies.rest_fan(topology, original) {
+        for h in duplicates.rest_fan(topology, original) {
             ring.push(to(topology.target(h)));
             last = Some(topology.apex(h));
         }
-        let closed = copies.is_inner(topology, original);
+        let closed = duplicates.is_inner(topology, original);
         if let (false, Some(last)) = (closed, last) {
             ring.push(to(last));
         }

@@ -13,7 +13,7 @@ use crate::{
 /// Wet rust thinner than this dries on where it is.
 const DRY: f32 = 1e-7;
 
-/// Runs off for a tick of `dt`. All fracture so far must have been [followed](super::follow_fracture).
+/// Runs off for a tick of `dt`. All fracture so far must have been [followed](super::update_stains).
 ///
 /// Wet rust w of a vertex obeys dw/dt = emission + inflow - (r + k) w, with r its speed over the length of its way and
 /// k the rate of deposit; stains grow by k w. Vertices are solved in the order of their depth, each with what has come
@@ -68,11 +68,11 @@ impl Pass<'_> {
     /// Solves all that lies at one place: upper lips, the lowest film, the metal.
     fn visit(&mut self, stains: &mut StainFields, original: VertexId) {
         let mut busy = false;
-        if stains.copies.is_split(original) {
-            let lowest = stains.flow.lowest(self.mesh, &stains.copies, original);
+        if stains.duplicates.is_split(original) {
+            let lowest = stains.flow.lowest(self.mesh, &stains.duplicates, original);
             let mut next = Some(original);
             while let Some(v) = next {
-                next = stains.copies.after(v);
+                next = stains.duplicates.after(v);
                 if Some(v) != lowest {
                     busy |= self.film(stains, original, v);
                 }
@@ -102,7 +102,7 @@ impl Pass<'_> {
         if !source && stains.film.wet[i] == 0.0 {
             return false;
         }
-        let outflow = stains.flow.film_way(self.mesh, &stains.copies, original, v);
+        let outflow = stains.flow.film_way(self.mesh, &stains.duplicates, original, v);
         let mut emitted = 0.0;
         if source && is_steep(self.mesh, original, self.gravity) {
             let damp = 1.0 + self.moisture.emission * stains.film.moisture[i];
@@ -120,7 +120,7 @@ impl Pass<'_> {
         if stains.metal.wet[i] == 0.0 || stains.metal.areas[i] <= 0.0 {
             return false;
         }
-        let outflow = stains.flow.metal_way(self.mesh, &stains.copies, original);
+        let outflow = stains.flow.metal_way(self.mesh, &stains.duplicates, original);
         let leaving = self.solve(&mut stains.metal, i, 0.0, &outflow);
         self.share(stains, leaving, &outflow);
         stains.metal.wet[i] > 0.0

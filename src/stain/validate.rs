@@ -16,7 +16,7 @@ impl StainFields {
         let (vertices, originals) = (mesh.topology.vertex_count(), mesh.topology.original_vertex_count());
         check_layer(&self.film, vertices)?;
         check_layer(&self.metal, originals)?;
-        if [self.sources.len(), self.copies.len()] != [vertices; 2] {
+        if [self.sources.len(), self.duplicates.len()] != [vertices; 2] {
             return Err(InvariantError::ArrayLength("sources"));
         }
         if [self.corrosion.len(), self.openness.len()] != [originals; 2] {

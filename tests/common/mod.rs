@@ -11,10 +11,10 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 use bevy_coating::{
+    FilmPace,
     deform::FilmConstraints,
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
-    plugin::FilmPace,
     prelude::*,
     sim::FilmState,
     stain::StainFields,

@@ -1,6 +1,6 @@
 //! The binary chunk: accessors and images, each in a buffer view of its own.
 
-use bevy_coating::shown::ShownPart;
+use bevy_coating::appearance::MeshPart;
 use serde_json::{Map, Value, json};
 
 use crate::common::Slot;
@@ -23,7 +23,7 @@ pub struct BinaryChunk {
 
 impl BinaryChunk {
     /// Adds a primitive, with those attributes that the slot `has`.
-    pub fn primitive(&mut self, part: &ShownPart, has: Slot, material: Option<usize>) -> Value {
+    pub fn primitive(&mut self, part: &MeshPart, has: Slot, material: Option<usize>) -> Value {
         let mut attributes = Map::new();
         attributes.insert("POSITION".into(), self.attribute(&part.positions, true).into());
         attributes.insert("NORMAL".into(), self.attribute(&part.normals, false).into());

@@ -1,12 +1,12 @@
 //! Materials of an aged model: the prop's own, those of what the paint uncovers, and those that were baked.
 
-use bevy_coating::shown::look::SurfaceLook;
+use bevy_coating::appearance::shading::{PrimerShading, SurfaceShading};
 use serde_json::{Map, Value, json};
 
 use super::buffer::BinaryChunk;
 use crate::common::{
     MaterialLibrary,
-    stained::{self, Base, Cover, Encoded, PRIMER, Primitive},
+    stained::{self, Base, Cover, Encoded, Primitive},
 };
 
 /// The prop's materials in their order if any of them goes on as it is, then those that were needed besides.
@@ -54,7 +54,7 @@ impl<'a> Materials<'a> {
         match (primitive.cover, primitive.base) {
             (Cover::Plain, Base::Own(material)) => material,
             (Cover::Plain, Base::Primer) => {
-                Some(*self.primer.get_or_insert_with(|| push(&mut self.materials, plain("primer", &PRIMER, false))))
+                Some(*self.primer.get_or_insert_with(|| push(&mut self.materials, plain("primer", &PrimerShading::default().surface(), false))))
             }
             (Cover::Plain, Base::Metal) => {
                 Some(*self.metal.get_or_insert_with(|| push(&mut self.materials, plain("rusted metal", &METAL, true))))
@@ -193,7 +193,7 @@ fn mentions(value: &Value, name: &str) -> bool {
 }
 
 /// Rusted metal where no stains are shown.
-const METAL: SurfaceLook = SurfaceLook {
+const METAL: SurfaceShading = SurfaceShading {
     base_color: bevy_math::Vec3::new(0.11, 0.045, 0.022),
     metallic: 0.6,
     roughness: 0.75,
@@ -202,14 +202,14 @@ const METAL: SurfaceLook = SurfaceLook {
 };
 
 /// One look all over.
-fn plain(name: &str, look: &SurfaceLook, double_sided: bool) -> Value {
-    let [r, g, b] = look.base_color.to_array().map(rounded);
+fn plain(name: &str, shading: &SurfaceShading, double_sided: bool) -> Value {
+    let [r, g, b] = shading.base_color.to_array().map(rounded);
     let mut material = json!({
         "name": name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [r, g, b, 1.0],
-            "metallicFactor": rounded(look.metallic),
-            "roughnessFactor": rounded(look.roughness)
+            "metallicFactor": rounded(shading.metallic),
+            "roughnessFactor": rounded(shading.roughness)
         }
     });
     if double_sided {

@@ -2,12 +2,12 @@
 //!
 //! One node and mesh for each prop, moved to its place in the scene, with one primitive for each material: the prop's
 //! own on the film, primer on the backs of flakes, and rusted metal beneath. What is shown is made by
-//! `bevy_coating::shown`, as in a running game; stains come into it by [`super::stained`].
+//! `bevy_coating::appearance`, as in a running game; stains come into it by [`super::stained`].
 
 mod buffer;
 mod materials;
 
-use bevy_coating::shown::ShownFilm;
+use bevy_coating::appearance::FilmAppearance;
 use bevy_math::Vec3;
 use serde_json::{Map, Value, json};
 
@@ -24,10 +24,10 @@ use materials::Materials;
 /// [`BakeError::TooLarge`].
 pub fn aged_glb(baked: &mut Baked, stains: StainOutput) -> Result<Vec<u8>, BakeError> {
     let Baked { props, films, stopwatch, materials: library, warnings, .. } = baked;
-    let shown: Vec<ShownFilm> = stopwatch.mesh(|| {
+    let shown: Vec<FilmAppearance> = stopwatch.mesh(|| {
         let pairs = props.iter().zip(films.iter());
         pairs
-            .map(|(prop, film)| ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
+            .map(|(prop, film)| FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
             .collect()
     });
     let dressed: Vec<Dressed> = stopwatch.mesh(|| {

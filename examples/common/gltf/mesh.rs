@@ -1,6 +1,6 @@
 //! Primitives of a mesh, welded into one surface: the paint does not care where one material ends.
 
-use bevy_coating::film::build::Surface;
+use bevy_coating::surface::Surface;
 use bevy_math::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
 use super::{

@@ -1,8 +1,8 @@
 //! Stains as vertex colours, for props whose textures must stay what they are.
 
-use bevy_coating::shown::{
-    ShownPart,
-    look::{StainPattern, StainSample, SurfaceLook},
+use bevy_coating::appearance::{
+    MeshPart,
+    shading::{StainPattern, StainSample, SurfaceShading},
 };
 use bevy_math::{Vec2, Vec3, Vec4};
 
@@ -24,14 +24,14 @@ pub struct Colored {
 
 /// Colours of paint: its own, times what stains let through where it has a colour texture, which the colours are
 /// multiplied with; else the whole look.
-pub fn film(part: &ShownPart, finish: &Finish, stains: &Stains, footprint: f32) -> Vec<[f32; 4]> {
+pub fn film(part: &MeshPart, finish: &Finish, stains: &Stains, footprint: f32) -> Vec<[f32; 4]> {
     let pattern = stains.pattern.with_footprint(footprint);
     let color = |i: usize| {
         let own = part.colors.get(i).map_or(Vec4::ONE, |&c| c.into());
         let uv = |uvs: &[[f32; 2]]| uvs.get(i).map_or(Vec2::ZERO, |&uv| uv.into());
         let place = Place { uvs: [uv(&part.uvs), uv(&part.uvs_1)], steps: [0.0; 2], color: own };
-        let (base, alpha) = finish.look(&place);
-        let stained = stains.look.film(base, &sample(part, i), &pattern).base_color;
+        let (base, alpha) = finish.shading(&place);
+        let stained = stains.shading.film(base, &sample(part, i), &pattern).base_color;
         if finish.is_textured() {
             (own.truncate() * ratio(stained, base.base_color)).extend(own.w).to_array()
         } else {
@@ -43,23 +43,24 @@ pub fn film(part: &ShownPart, finish: &Finish, stains: &Stains, footprint: f32) 
 
 /// Colours of backs or metal, whose look `look` gives.
 pub fn bare(
-    part: &ShownPart,
+    part: &MeshPart,
     stains: &Stains,
     footprint: f32,
-    look: impl Fn(&StainSample, &StainPattern) -> SurfaceLook,
+    shading: impl Fn(&StainSample, &StainPattern) -> SurfaceShading,
 ) -> Colored {
     let pattern = stains.pattern.with_footprint(footprint);
-    let looks: Vec<SurfaceLook> = (0..part.positions.len()).map(|i| look(&sample(part, i), &pattern)).collect();
-    let mean = |of: fn(&SurfaceLook) -> f32| looks.iter().map(of).sum::<f32>() / looks.len().max(1) as f32;
-    let color = |look: &SurfaceLook| look.base_color.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array();
+    let shadings: Vec<SurfaceShading> =
+        (0..part.positions.len()).map(|i| shading(&sample(part, i), &pattern)).collect();
+    let mean = |of: fn(&SurfaceShading) -> f32| shadings.iter().map(of).sum::<f32>() / shadings.len().max(1) as f32;
+    let color = |shading: &SurfaceShading| shading.base_color.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array();
     Colored {
-        metallic: mean(|look| look.metallic).clamp(0.0, 1.0),
-        roughness: mean(|look| look.roughness).clamp(0.0, 1.0),
-        colors: looks.iter().map(color).collect(),
+        metallic: mean(|shading| shading.metallic).clamp(0.0, 1.0),
+        roughness: mean(|shading| shading.roughness).clamp(0.0, 1.0),
+        colors: shadings.iter().map(color).collect(),
     }
 }
 
-fn sample(part: &ShownPart, i: usize) -> StainSample {
+fn sample(part: &MeshPart, i: usize) -> StainSample {
     part.sample(i).unwrap_or_default()
 }
 

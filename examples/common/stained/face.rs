@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use bevy_coating::shown::{ShownFilm, ShownPart};
+use bevy_coating::appearance::{FilmAppearance, MeshPart};
 use bevy_math::{Mat2, Vec3};
 
 use super::{
-    Base, Cover, PRIMER, Primitive, Textures, colors,
+    Base, Cover, Primitive, Textures, colors,
     finish::Finish,
     frames, kept,
     sheet::{Ground, Patch, Stains},
@@ -16,7 +16,7 @@ use crate::common::{MaterialLibrary, Slot, props::Prop};
 
 /// A part and what it is made of.
 pub struct Face<'a> {
-    pub part: &'a ShownPart,
+    pub part: &'a MeshPart,
     /// The slot of the prop's surface; `None` for backs and metal.
     pub slot: Option<usize>,
     pub base: Base,
@@ -30,7 +30,7 @@ pub struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// All parts of a prop that have triangles: fronts, backs, metal.
-    pub fn all(prop: &Prop, shown: &'a ShownFilm) -> Vec<Self> {
+    pub fn all(prop: &Prop, shown: &'a FilmAppearance) -> Vec<Self> {
         let fronts = prop.slots.iter().enumerate().filter_map(|(i, &has)| {
             Some(Self {
                 part: shown.front(i)?,
@@ -89,18 +89,18 @@ impl<'a> Face<'a> {
     pub fn colored(&self, stains: &Stains, footprint: f32) -> Primitive<'a> {
         let bare = match (self.ground(), &self.finish) {
             (Some(Ground::Back(primer)), _) => {
-                colors::bare(self.part, stains, footprint, |s, p| stains.look.back(primer, s, p))
+                colors::bare(self.part, stains, footprint, |s, p| stains.shading.back(primer, s, p))
             }
-            (Some(Ground::Metal), _) => colors::bare(self.part, stains, footprint, |s, p| stains.look.metal(s, p)),
+            (Some(Ground::Metal), _) => colors::bare(self.part, stains, footprint, |s, p| stains.shading.metal(s, p)),
             (_, Some(finish)) => {
                 let colors = colors::film(self.part, finish, stains, footprint);
-                let part = Cow::Owned(ShownPart { colors, ..self.part.clone() });
+                let part = Cow::Owned(MeshPart { colors, ..self.part.clone() });
                 let cover = if finish.is_textured() { Cover::Plain } else { Cover::Colors(None) };
                 return Primitive { part, has: Slot { colors: true, ..self.has }, base: self.base, cover };
             }
             _ => return self.untouched(),
         };
-        let part = Cow::Owned(ShownPart { colors: bare.colors, ..self.part.clone() });
+        let part = Cow::Owned(MeshPart { colors: bare.colors, ..self.part.clone() });
         let cover = Cover::Colors(Some([bare.metallic, bare.roughness]));
         Primitive { part, has: Slot { colors: true, ..self.has }, base: self.base, cover }
     }
@@ -108,7 +108,7 @@ impl<'a> Face<'a> {
     fn ground(&self) -> Option<Ground<'_>> {
         Some(match self.base {
             Base::Own(_) => Ground::Film(self.finish.as_ref()?),
-            Base::Primer => Ground::Back(PRIMER),
+            Base::Primer => Ground::Back(PrimerShading::default().surface()),
             Base::Metal => Ground::Metal,
         })
     }
@@ -151,7 +151,7 @@ impl<'a> Face<'a> {
     }
 
     /// Tangents of the prop's own normal texture; empty if it has none.
-    fn own_tangents(&self, part: &ShownPart) -> Vec<[f32; 4]> {
+    fn own_tangents(&self, part: &MeshPart) -> Vec<[f32; 4]> {
         match &self.finish {
             Some(finish) if finish.has_relief() && self.has.tangents => part.tangents.clone(),
             Some(finish) if finish.has_relief() => {
@@ -168,7 +168,7 @@ pub struct LaidOut<'a> {
     face: &'a Face<'a>,
     ground: Ground<'a>,
     /// With the prop's own coordinates.
-    part: Cow<'a, ShownPart>,
+    part: Cow<'a, MeshPart>,
     uvs: Vec<[f32; 2]>,
     charts: Vec<u32>,
     tangents: Vec<[f32; 4]>,

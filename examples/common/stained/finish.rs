@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use bevy_coating::shown::look::SurfaceLook;
+use bevy_coating::appearance::shading::SurfaceShading;
 use bevy_math::{Affine2, Vec2, Vec3, Vec4};
 use serde_json::Value;
 
@@ -95,18 +95,18 @@ impl Finish {
     }
 
     /// Look and alpha.
-    pub fn look(&self, place: &Place) -> (SurfaceLook, f32) {
+    pub fn shading(&self, place: &Place) -> (SurfaceShading, f32) {
         let sample = |map: &Option<Map>| map.as_ref().map_or(Vec4::ONE, |map| map.sample(place));
         let color = self.base * sample(&self.base_map) * place.color;
         let surface = sample(&self.surface_map);
-        let look = SurfaceLook {
+        let shading = SurfaceShading {
             base_color: color.truncate(),
             metallic: self.metallic * surface.z,
             roughness: self.roughness * surface.y,
             reflectance: REFLECTANCE,
             height: 0.0,
         };
-        (look, color.w)
+        (shading, color.w)
     }
 
     /// How far the normal leans along tangent and bitangent, for each unit out of the surface.

@@ -1,11 +1,11 @@
 //! Tangents, and how one set of them lies in another.
 
-use bevy_coating::shown::ShownPart;
+use bevy_coating::appearance::MeshPart;
 use bevy_math::{Mat2, Vec2, Vec3, Vec4};
 
 /// Unit tangents for texture coordinates, as glTF has them: along growing u, with handedness in `w` so that
 /// `w normal x tangent` points up in the image. Each is the mean over the vertex's triangles, by their angles there.
-pub fn tangents(part: &ShownPart, uvs: &[[f32; 2]], indices: &[u32]) -> Vec<[f32; 4]> {
+pub fn tangents(part: &MeshPart, uvs: &[[f32; 2]], indices: &[u32]) -> Vec<[f32; 4]> {
     let mut sums = vec![(Vec3::ZERO, 0.0f32); part.positions.len()];
     for t in indices.as_chunks::<3>().0 {
         let p = t.map(|v| Vec3::from(part.positions[v as usize]));
@@ -80,12 +80,12 @@ mod tests {
     use super::*;
 
     /// A square in the plane of x and y, seen along -z, and the coordinates of an upright image on it.
-    fn square() -> (ShownPart, Vec<[f32; 2]>) {
-        let part = ShownPart {
+    fn square() -> (MeshPart, Vec<[f32; 2]>) {
+        let part = MeshPart {
             positions: vec![[0., 0., 0.], [2., 0., 0.], [2., 2., 0.], [0., 2., 0.]],
             normals: vec![[0., 0., 1.]; 4],
             indices: vec![0, 1, 2, 0, 2, 3],
-            ..ShownPart::default()
+            ..MeshPart::default()
         };
         (part, vec![[0., 1.], [1., 1.], [1., 0.], [0., 0.]])
     }

@@ -2,7 +2,7 @@
 //! into textures, or coarsely into vertex colours.
 //!
 //! ```text
-//! ShownFilm --unique?--> the prop's texture coordinates --+
+//! FilmAppearance --unique?--> the prop's texture coordinates --+
 //!      |                                                  +--coverage--> looks, relief --dilate--> PNG
 //!      +---charts--unwrap--pack--> coordinates of our own +
 //! ```
@@ -32,9 +32,9 @@ mod unwrap;
 use std::{borrow::Cow, ops::RangeInclusive};
 
 use bevy_coating::{
-    shown::{
-        ShownFilm, ShownPart,
-        look::{StainLook, StainPattern, SurfaceLook},
+    appearance::{
+        FilmAppearance, MeshPart,
+        shading::{FilmShading, StainPattern, SurfaceShading},
     },
     sim::FilmState,
 };
@@ -51,14 +51,6 @@ pub use kept::{move_to_second, sets as texture_sets, without_baked};
 
 /// Least and most texels along the side of a texture.
 pub const TEXTURE_SIZES: RangeInclusive<u32> = 64..=8192;
-/// Primer on the backs of flakes, as a `Coating` has it by default.
-pub const PRIMER: SurfaceLook = SurfaceLook {
-    base_color: Vec3::new(0.263, 0.233, 0.187),
-    metallic: 0.0,
-    roughness: 0.85,
-    reflectance: 0.3,
-    height: 0.0,
-};
 
 /// How stains come into a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,7 +81,7 @@ impl StainOutput {
 
 /// A mesh primitive to be written.
 pub struct Primitive<'a> {
-    pub part: Cow<'a, ShownPart>,
+    pub part: Cow<'a, MeshPart>,
     /// The attributes that are to be written.
     pub has: Slot,
     pub base: Base,
@@ -133,7 +125,7 @@ pub struct Dressed<'a> {
 pub fn dress<'a>(
     prop: &Prop,
     film: &FilmState,
-    shown: &'a ShownFilm,
+    shown: &'a FilmAppearance,
     library: &MaterialLibrary,
     textures: &mut Textures,
     output: StainOutput,
@@ -149,8 +141,8 @@ pub fn dress<'a>(
             dressed.warnings.push(format!("{}: its paint shows no stains: {cause}", prop.name));
         }
     }
-    let look = StainLook::default();
-    let stains = Stains { look: &look, pattern: StainPattern::new(prop.seed, film.stains.streaks) };
+    let shading = FilmShading::default();
+    let stains = Stains { shading: &shading, pattern: StainPattern::new(prop.seed, film.stains.streaks) };
     match output {
         StainOutput::Textures(size) => textured(&mut dressed, &faces, prop, film, &stains, size),
         _ => {

@@ -1,8 +1,8 @@
 //! One set of textures: base colour, metalness with roughness, and normals.
 
-use bevy_coating::shown::{
-    ShownPart,
-    look::{StainLook, StainPattern, StainSample, SurfaceLook},
+use bevy_coating::appearance::{
+    MeshPart,
+    shading::{FilmShading, StainPattern, StainSample, SurfaceShading},
 };
 use bevy_math::{Mat2, Vec2, Vec3, Vec4};
 
@@ -24,7 +24,7 @@ pub enum Ground<'a> {
     /// Paint over the prop's own look.
     Film(&'a Finish),
     /// Primer, on the backs of flakes.
-    Back(SurfaceLook),
+    Back(SurfaceShading),
     /// Bare metal.
     Metal,
 }
@@ -33,7 +33,7 @@ pub enum Ground<'a> {
 pub struct Patch<'a> {
     pub ground: Ground<'a>,
     /// The part, with its own first and second texture coordinates.
-    pub part: &'a ShownPart,
+    pub part: &'a MeshPart,
     /// Places in the texture, 0 to 1.
     pub uvs: &'a [[f32; 2]],
     /// For each triangle what it hangs together with in the texture.
@@ -45,7 +45,7 @@ pub struct Patch<'a> {
 /// How stains look on one prop.
 #[derive(Clone, Copy, Debug)]
 pub struct Stains<'a> {
-    pub look: &'a StainLook,
+    pub shading: &'a FilmShading,
     pub pattern: StainPattern,
 }
 
@@ -108,11 +108,11 @@ impl Sheet {
             for i in 0..band.base.len() {
                 let at = band.first + i;
                 let Some(triangle) = triangles.get(owners[at] as usize) else { continue };
-                let (look, alpha) = triangle.look(texel(at % side, at / side), stains);
-                let [r, g, b] = look.base_color.to_array().map(to_srgb);
+                let (shading, alpha) = triangle.shading(texel(at % side, at / side), stains);
+                let [r, g, b] = shading.base_color.to_array().map(to_srgb);
                 band.base[i] = [r, g, b, to_byte(alpha)];
-                band.surface[i] = [255, to_byte(look.roughness), to_byte(look.metallic)];
-                band.heights[i] = look.height;
+                band.surface[i] = [255, to_byte(shading.roughness), to_byte(shading.metallic)];
+                band.heights[i] = shading.height;
             }
         });
 
@@ -176,17 +176,17 @@ fn texel_area([a, b, c]: [Vec2; 3]) -> f32 {
 }
 
 impl Triangle<'_> {
-    fn look(&self, texel: Vec2, stains: &Stains) -> (SurfaceLook, f32) {
+    fn shading(&self, texel: Vec2, stains: &Stains) -> (SurfaceShading, f32) {
         let (weights, _) = nearest(&self.texels, texel);
         let sample = self.sample(weights);
         let pattern = stains.pattern.with_footprint(self.footprint);
         match self.patch.ground {
             Ground::Film(finish) => {
-                let (base, alpha) = finish.look(&self.place(weights));
-                (stains.look.film(base, &sample, &pattern), alpha)
+                let (base, alpha) = finish.shading(&self.place(weights));
+                (stains.shading.film(base, &sample, &pattern), alpha)
             }
-            Ground::Back(primer) => (stains.look.back(primer, &sample, &pattern), 1.0),
-            Ground::Metal => (stains.look.metal(&sample, &pattern), 1.0),
+            Ground::Back(primer) => (stains.shading.back(primer, &sample, &pattern), 1.0),
+            Ground::Metal => (stains.shading.metal(&sample, &pattern), 1.0),
         }
     }
 

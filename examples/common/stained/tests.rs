@@ -1,6 +1,7 @@
 use bevy_coating::{
-    film::build::{FilmResolution, Surface, build},
+    remesh::{FilmResolution, build_film},
     settings::CoatingSettings,
+    surface::Surface,
 };
 use bevy_math::{Vec2, Vec4};
 use serde_json::json;
@@ -58,12 +59,12 @@ fn library() -> MaterialLibrary {
     }
 }
 
-fn dressed<'a>(prop: &Prop, film: &FilmState, shown: &'a ShownFilm, output: StainOutput) -> Dressed<'a> {
+fn dressed<'a>(prop: &Prop, film: &FilmState, shown: &'a FilmAppearance, output: StainOutput) -> Dressed<'a> {
     dress(prop, film, shown, &library(), &mut Textures::default(), output)
 }
 
-fn shown(prop: &Prop, film: &FilmState) -> ShownFilm {
-    ShownFilm::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains)
+fn shown(prop: &Prop, film: &FilmState) -> FilmAppearance {
+    FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains)
 }
 
 /// Colour of the prop's own texture at a place of the square.

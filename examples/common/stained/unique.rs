@@ -1,6 +1,6 @@
 //! Whether the prop's own texture coordinates can hold stains: each place of the surface needs texels of its own.
 
-use bevy_coating::{shown::CornerAttributes, sim::FilmState};
+use bevy_coating::{appearance::CornerAttributes, sim::FilmState};
 use bevy_math::Vec2;
 
 use super::coverage::count_overlaps;

@@ -1,6 +1,6 @@
 //! Texture coordinates of our own, where the prop's do not serve.
 
-use bevy_coating::shown::ShownPart;
+use bevy_coating::appearance::MeshPart;
 use bevy_math::{UVec2, Vec2, Vec3};
 
 use super::{
@@ -24,7 +24,7 @@ pub struct Unwrapped {
 
 /// Lays out parts side by side in a square texture, as they are at rest. Each comes with its share of texels for a
 /// length: 1 is a full one. `padding` is in texels. `None` if there are more charts than there is room for.
-pub fn unwrap(parts: &[(&ShownPart, f32)], size: u32, padding: u32) -> Option<Vec<Unwrapped>> {
+pub fn unwrap(parts: &[(&MeshPart, f32)], size: u32, padding: u32) -> Option<Vec<Unwrapped>> {
     let mut flat: Vec<(usize, Flat)> = Vec::new();
     for (i, (part, density)) in parts.iter().enumerate() {
         flat.extend(charts(&part.rest, &part.indices).into_iter().map(|chart| (i, Flat::new(part, chart, *density))));
@@ -56,7 +56,7 @@ struct Flat {
 
 impl Flat {
     /// Lays a chart flat, turned for the smallest box.
-    fn new(part: &ShownPart, chart: Chart, density: f32) -> Self {
+    fn new(part: &MeshPart, chart: Chart, density: f32) -> Self {
         let [right, up] = chart.basis();
         let points: Vec<Vec2> = corners(part, &chart)
             .map(|(_, v)| Vec3::from(part.rest[v as usize]))
@@ -78,18 +78,18 @@ impl Flat {
 }
 
 /// Triangle and vertex of all corners of a chart.
-fn corners(part: &ShownPart, chart: &Chart) -> impl Iterator<Item = (u32, u32)> {
+fn corners(part: &MeshPart, chart: &Chart) -> impl Iterator<Item = (u32, u32)> {
     chart.triangles.iter().flat_map(|&t| part.indices[t as usize * 3..][..3].iter().map(move |&v| (t, v)))
 }
 
 impl Unwrapped {
-    fn of(part: &ShownPart) -> Self {
+    fn of(part: &MeshPart) -> Self {
         let indices = vec![0; part.indices.len()];
         Self { charts: vec![0; indices.len() / 3], indices, ..Self::default() }
     }
 
     /// Adds a chart. `new` is scratch: no new vertex for any old one, before and after.
-    fn add(&mut self, chart: u32, flat: &Flat, part: &ShownPart, new: &mut [u32], uv: impl Fn(Vec2) -> [f32; 2]) {
+    fn add(&mut self, chart: u32, flat: &Flat, part: &MeshPart, new: &mut [u32], uv: impl Fn(Vec2) -> [f32; 2]) {
         for (k, (t, v)) in corners(part, &flat.chart).enumerate() {
             if new[v as usize] == u32::MAX {
                 new[v as usize] = self.sources.len() as u32;
@@ -103,12 +103,12 @@ impl Unwrapped {
     }
 
     /// The part with these vertices. Its own texture coordinates stay what they were.
-    pub fn split(&self, part: &ShownPart) -> ShownPart {
+    pub fn split(&self, part: &MeshPart) -> MeshPart {
         fn pick<T: Copy>(values: &[T], sources: &[u32]) -> Vec<T> {
             // What the part does not have stays empty.
             sources.iter().filter_map(|&v| values.get(v as usize).copied()).collect()
         }
-        ShownPart {
+        MeshPart {
             positions: pick(&part.positions, &self.sources),
             normals: pick(&part.normals, &self.sources),
             uvs: pick(&part.uvs, &self.sources),
@@ -128,10 +128,10 @@ mod tests {
     use super::*;
 
     /// A flat square of two triangles, turned by 45 degrees, and one far from it.
-    fn diamond() -> ShownPart {
+    fn diamond() -> MeshPart {
         let rest =
             vec![[0., -1., 0.], [1., 0., 0.], [0., 1., 0.], [-1., 0., 0.], [5., 0., 0.], [5., 0., 1.], [5., 1., 0.]];
-        ShownPart { positions: rest.clone(), rest, indices: vec![0, 1, 2, 0, 2, 3, 4, 6, 5], ..Default::default() }
+        MeshPart { positions: rest.clone(), rest, indices: vec![0, 1, 2, 0, 2, 3, 4, 6, 5], ..Default::default() }
     }
 
     #[test]

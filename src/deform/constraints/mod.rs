@@ -1,6 +1,6 @@
 //! The constraints of a film, and their upkeep.
 //!
-//! Which constraints there are is decided by fracture (see [`follow_fracture`](super::follow_fracture)). Those that
+//! Which constraints there are is decided by fracture (see [`update_constraints`](super::update_constraints)). Those that
 //! anything can move lie in the packs of the packed solver, the others are parked: nothing is kept of them but their
 //! angles, as all else follows from the film.
 
@@ -28,6 +28,7 @@ const PARKED: u32 = u32::MAX - 1;
 /// The order in which constraints are solved follows from the order of fracture alone. It decides later bits, so it is
 /// part of the film's state.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmConstraints {
     pub(super) points: Points,
     pub(super) regions: Vec<Region>,
@@ -44,7 +45,7 @@ pub struct FilmConstraints {
     pub(super) points_outdated: bool,
     /// Settings and quality of the last step.
     pub(super) settings: Option<(DeformSettings, SolverQuality)>,
-    pub(super) rest: super::sleep::RestMarks,
+    pub(super) rest: super::sleep::SleepMarks,
     pub(super) plain: super::plain::PlainConstraints,
     blocked: Blocked,
     spare_bends: Vec<(u32, BendLane)>,
@@ -63,7 +64,7 @@ impl FilmConstraints {
             length_lanes: vec![NONE; half_edges],
             bend_lanes: vec![NONE; half_edges],
             angles: vec![[0.0; 2]; half_edges],
-            rest: super::sleep::RestMarks::new(mesh.topology.vertex_count()),
+            rest: super::sleep::SleepMarks::new(mesh.topology.vertex_count()),
             ..Self::default()
         }
     }

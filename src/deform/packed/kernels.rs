@@ -6,7 +6,7 @@
 use super::{
     lanes::Lanes,
     pack::{BendPack, BendTargets, LANES, Lane, LengthPack},
-    points::{Place, Point},
+    points::{Point, PointOffset},
 };
 
 /// Three components.
@@ -63,7 +63,7 @@ unsafe fn join<L: Lanes>(v: Vec3<L>, w: L) -> [L; 4] {
 
 /// The places from lane `at` on.
 #[inline(always)]
-fn place(places: &Lane<Place>, at: usize) -> *const Place {
+fn place(places: &Lane<PointOffset>, at: usize) -> *const PointOffset {
     places.as_ptr().wrapping_add(at)
 }
 
@@ -213,7 +213,7 @@ unsafe fn above<L: Lanes>(p: Vec3<L>, normal: Vec3<L>, distance: L) -> Vec3<L> {
 
 /// Half-space of the points at `places`.
 #[inline(always)]
-pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, places: &[Place]) {
+pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, places: &[PointOffset]) {
     for group in places.chunks_exact(L::WIDTH) {
         // SAFETY: the caller's.
         unsafe {
@@ -231,7 +231,7 @@ pub(super) unsafe fn advance<L: Lanes>(
     points: *mut Point,
     before: *mut Point,
     planes: *const Point,
-    places: &[Place],
+    places: &[PointOffset],
     keep: f32,
 ) {
     for group in places.chunks_exact(L::WIDTH) {

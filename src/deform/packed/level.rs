@@ -4,7 +4,7 @@ use super::{
     kernels,
     lanes::{self, Lanes},
     pack::{BendPack, BendTargets, LengthPack},
-    points::{Place, Point},
+    points::{Point, PointOffset},
 };
 
 /// An instruction set that the solver has kernels for. All give the same bits.
@@ -74,8 +74,8 @@ impl Default for SimdLevel {
 pub(super) struct Kernels {
     pub sweep_bends: unsafe fn(*mut Point, &[BendPack]),
     pub sweep_lengths: unsafe fn(*mut Point, &[LengthPack]),
-    pub project: unsafe fn(*mut Point, *const Point, &[Place]),
-    pub advance: unsafe fn(*mut Point, *mut Point, *const Point, &[Place], f32),
+    pub project: unsafe fn(*mut Point, *const Point, &[PointOffset]),
+    pub advance: unsafe fn(*mut Point, *mut Point, *const Point, &[PointOffset], f32),
     pub narrow: unsafe fn(&mut BendPack, &mut BendTargets, f32, f32) -> bool,
 }
 
@@ -92,11 +92,11 @@ macro_rules! kernels_with {
             unsafe { kernels::sweep_lengths::<$Lanes>(points, packs) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn project(points: *mut Point, planes: *const Point, places: &[Place]) {
+        unsafe fn project(points: *mut Point, planes: *const Point, places: &[PointOffset]) {
             unsafe { kernels::project::<$Lanes>(points, planes, places) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, places: &[Place], keep: f32) {
+        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, places: &[PointOffset], keep: f32) {
             unsafe { kernels::advance::<$Lanes>(points, before, planes, places, keep) }
         }
         $(#[target_feature(enable = $feature)])?

@@ -3,7 +3,7 @@
 //! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused lanes
 //! refer to the null point, which nothing moves.
 
-use super::points::Place;
+use super::points::PointOffset;
 
 /// Constraints in a pack.
 pub const LANES: usize = 32;
@@ -16,7 +16,7 @@ pub(super) type Lane<T> = [T; LANES];
 #[repr(C, align(64))]
 pub struct BendPack {
     /// Ends of the edge and tips of the two wings: p1, p2, p3, p4.
-    pub points: [Lane<Place>; 4],
+    pub points: [Lane<PointOffset>; 4],
     /// `skew cos(phi0 / 2)` of each wing: the cosine at which it rests.
     pub folds: [Lane<f32>; 2],
     /// Square of each wing's median at rest.
@@ -40,7 +40,7 @@ pub struct BendTargets {
 #[repr(C, align(64))]
 pub struct LengthPack {
     /// The two ends.
-    pub points: [Lane<Place>; 2],
+    pub points: [Lane<PointOffset>; 2],
     /// Rest length.
     pub rest: Lane<f32>,
 }
@@ -48,7 +48,7 @@ pub struct LengthPack {
 impl BendPack {
     /// A pack of null constraints.
     pub const NULL: Self =
-        Self { points: [[Place::NULL; LANES]; 4], folds: [[0.0; LANES]; 2], medians: [[0.0; LANES]; 2] };
+        Self { points: [[PointOffset::NULL; LANES]; 4], folds: [[0.0; LANES]; 2], medians: [[0.0; LANES]; 2] };
 }
 
 impl BendTargets {
@@ -58,5 +58,5 @@ impl BendTargets {
 
 impl LengthPack {
     /// A pack of null constraints.
-    pub const NULL: Self = Self { points: [[Place::NULL; LANES]; 2], rest: [0.0; LANES] };
+    pub const NULL: Self = Self { points: [[PointOffset::NULL; LANES]; 2], rest: [0.0; LANES] };
 }

@@ -16,9 +16,9 @@ pub struct Point(pub(super) [f32; 4]);
 /// Where a point lies: its offset in bytes, as scaling an index by 16 costs an instruction each time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(transparent)]
-pub(super) struct Place(u32);
+pub(super) struct PointOffset(u32);
 
-impl Place {
+impl PointOffset {
     /// Of the null point.
     pub const NULL: Self = Self(0);
 
@@ -74,8 +74,8 @@ pub enum Motion {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
     unit: f32,
-    /// Place of each vertex.
-    places: Vec<Place>,
+    /// PointOffset of each vertex.
+    places: Vec<PointOffset>,
     /// Vertex of each point; none for the null point and for room.
     vertices: Vec<u32>,
     /// Room that is left in each region: points from the first to before the second.
@@ -98,13 +98,13 @@ pub struct Points {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Awake {
     /// Padded with the null point to whole groups. In the order of memory, but for those that woke since the last tick.
-    places: Vec<Place>,
+    places: Vec<PointOffset>,
     count: usize,
     sorted: bool,
 }
 
 impl Awake {
-    fn push(&mut self, place: Place) {
+    fn push(&mut self, place: PointOffset) {
         self.places.truncate(self.count);
         self.places.push(place);
         self.count += 1;
@@ -114,7 +114,7 @@ impl Awake {
 
     fn pad(&mut self) {
         self.places.truncate(self.count);
-        self.places.resize(self.count.next_multiple_of(GROUP), Place::NULL);
+        self.places.resize(self.count.next_multiple_of(GROUP), PointOffset::NULL);
     }
 }
 
@@ -126,7 +126,7 @@ impl Points {
         let unit = if unit.is_normal() && (1.0 / unit).is_normal() { unit } else { 1.0 };
         let mut points = Self {
             unit,
-            places: vec![Place::NULL; rest.len()],
+            places: vec![PointOffset::NULL; rest.len()],
             motions: vec![Motion::Attached; rest.len()],
             room: vec![[0; 2]; layout.regions],
             region_of: layout.region_of.clone(),
@@ -151,26 +151,26 @@ impl Points {
         points
     }
 
-    fn push(&mut self, vertex: u32, at: Point, plane: Point) -> Place {
+    fn push(&mut self, vertex: u32, at: Point, plane: Point) -> PointOffset {
         self.vertices.push(vertex);
         self.now.push(at);
         self.before.push(at);
         self.planes.push(plane);
-        Place::new(self.now.len() - 1)
+        PointOffset::new(self.now.len() - 1)
     }
 
-    /// Place of vertex `v`; that of the null point for one that does not exist, so that the kernels may trust every place.
-    pub(super) fn place(&self, v: u32) -> Place {
-        self.places.get(v as usize).copied().unwrap_or(Place::NULL)
+    /// PointOffset of vertex `v`; that of the null point for one that does not exist, so that the kernels may trust every place.
+    pub(super) fn place(&self, v: u32) -> PointOffset {
+        self.places.get(v as usize).copied().unwrap_or(PointOffset::NULL)
     }
 
     /// The vertex at `place`; none for the null point.
-    pub(super) fn vertex(&self, place: Place) -> usize {
+    pub(super) fn vertex(&self, place: PointOffset) -> usize {
         self.vertices[place.index()] as usize
     }
 
     /// What the vertex at `place` does.
-    pub(super) fn motion_at(&self, place: Place) -> Motion {
+    pub(super) fn motion_at(&self, place: PointOffset) -> Motion {
         self.motions.get(self.vertex(place)).copied().unwrap_or(Motion::Attached)
     }
 
@@ -227,7 +227,7 @@ impl Points {
         let [next, end] = &mut self.room[region];
         let place = if next < end {
             *next += 1;
-            Place::new(*next as usize - 1)
+            PointOffset::new(*next as usize - 1)
         } else {
             self.push(NO_VERTEX, at, plane)
         };

@@ -3,7 +3,7 @@
 use super::{
     level::Kernels,
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::{Motion, Place, Points},
+    points::{Motion, PointOffset, Points},
     slots::{Blocked, Slots},
 };
 use crate::deform::SimdLevel;
@@ -133,7 +133,7 @@ impl Region {
         let (pack, place) = split(lane);
         let (bends, targets) = (&mut self.bends[pack], &mut self.targets[pack]);
         for i in 0..4 {
-            bends.points[i][place] = Place::NULL;
+            bends.points[i][place] = PointOffset::NULL;
         }
         for i in 0..2 {
             bends.medians[i][place] = 0.0;
@@ -151,7 +151,7 @@ impl Region {
         let length = self.length(lane, points);
         let (pack, place) = split(lane);
         for i in 0..2 {
-            self.lengths[pack].points[i][place] = Place::NULL;
+            self.lengths[pack].points[i][place] = PointOffset::NULL;
         }
         self.lengths[pack].rest[place] = 0.0;
         self.length_slots.release(lane);

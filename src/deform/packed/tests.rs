@@ -8,7 +8,7 @@ use super::{
     lanes::{self, Lanes},
     level::Kernels,
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::{Place, Point},
+    points::{Point, PointOffset},
     *,
 };
 use crate::deform::{BendConstraint, bend::bend_corrections, length::length_corrections};
@@ -50,8 +50,8 @@ fn points(count: usize) -> impl Strategy<Value = Vec<Point>> {
 }
 
 /// Lane `i` of list `k` gets point `1 + k * 32 + i`.
-fn places<const N: usize>() -> [[Place; LANES]; N] {
-    std::array::from_fn(|k| std::array::from_fn(|i| Place::new(1 + k * LANES + i)))
+fn places<const N: usize>() -> [[PointOffset; LANES]; N] {
+    std::array::from_fn(|k| std::array::from_fn(|i| PointOffset::new(1 + k * LANES + i)))
 }
 
 fn floats(range: std::ops::Range<f32>) -> impl Strategy<Value = [f32; LANES]> {
@@ -143,7 +143,7 @@ proptest! {
         let Some(d) = length_corrections([a, b], w, rest) else { return Ok(()) };
         let mut points = [Point::default(), at(a, w[0]), at(b, w[1])];
         let mut pack = LengthPack::NULL;
-        (pack.points[0][5], pack.points[1][5], pack.rest[5]) = (Place::new(1), Place::new(2), rest);
+        (pack.points[0][5], pack.points[1][5], pack.rest[5]) = (PointOffset::new(1), PointOffset::new(2), rest);
         unsafe { kernels::sweep_lengths::<lanes::scalar::Scalar>(points.as_mut_ptr(), &[pack]) };
         prop_assert!((xyz(points[1]) - a - d[0]).length() < 1e-5 && (xyz(points[2]) - b - d[1]).length() < 1e-5);
         prop_assert_eq!(points[0], Point::default());
@@ -162,7 +162,7 @@ proptest! {
         let mut points = [Point::default(), at(p[0], w[0]), at(p[1], w[1]), at(p[2], w[2]), at(p[3], w[3])];
         let mut pack = BendPack::NULL;
         for i in 0..4 {
-            pack.points[i][9] = Place::new(i + 1);
+            pack.points[i][9] = PointOffset::new(i + 1);
         }
         for i in 0..2 {
             pack.folds[i][9] = plain.skew[i] * ops::cos(plain.target * 0.5);
@@ -199,7 +199,7 @@ fn degenerate_pairs_and_lengths_are_left_alone() {
         let before = points;
         let mut pack = BendPack::NULL;
         for i in 0..4 {
-            pack.points[i][0] = Place::new(i + 1);
+            pack.points[i][0] = PointOffset::new(i + 1);
         }
         (pack.medians[0][0], pack.medians[1][0]) = (1.0, 1.0);
         unsafe { (Kernels::of(SimdLevel::best()).sweep_bends)(points.as_mut_ptr(), &[pack]) };
@@ -208,7 +208,7 @@ fn degenerate_pairs_and_lengths_are_left_alone() {
     let mut points = [Point::default(), at(Vec3::ONE, 1.0), at(Vec3::ONE, 1.0)];
     let before = points;
     let mut pack = LengthPack::NULL;
-    (pack.points[0][0], pack.points[1][0], pack.rest[0]) = (Place::new(1), Place::new(2), 1.0);
+    (pack.points[0][0], pack.points[1][0], pack.rest[0]) = (PointOffset::new(1), PointOffset::new(2), 1.0);
     unsafe { (Kernels::of(SimdLevel::best()).sweep_lengths)(points.as_mut_ptr(), &[pack]) };
     assert_eq!(points, before);
 }
@@ -218,7 +218,7 @@ fn what_is_held_does_not_move_even_where_corrections_are_infinite() {
     let mut points = [Point::default(), at(Vec3::ONE, 0.0), at(Vec3::splat(1e30), 1.0)];
     let held = points[1];
     let mut pack = LengthPack::NULL;
-    (pack.points[0][0], pack.points[1][0], pack.rest[0]) = (Place::new(1), Place::new(2), 1.0);
+    (pack.points[0][0], pack.points[1][0], pack.rest[0]) = (PointOffset::new(1), PointOffset::new(2), 1.0);
     for level in levels() {
         unsafe { (Kernels::of(level).sweep_lengths)(points.as_mut_ptr(), std::slice::from_ref(&pack)) };
         assert_eq!(points[1], held);

@@ -1,6 +1,6 @@
 //! Each equation and rule of the fracture stages against an independent derivation.
 
-mod foresight;
+mod predictions;
 
 use core::f32::consts::PI;
 

@@ -5,11 +5,7 @@ mod solvers;
 use bevy_math::Vec3;
 
 use super::*;
-use crate::{
-    film::{FaceFate, build::sample},
-    settings::CoatingSettings,
-    stain::Environment,
-};
+use crate::{film::FaceFate, remesh::sample, settings::CoatingSettings, stain::Environment};
 
 fn plate(triangles: u32, seed: u64, settings: &CoatingSettings, steps_per_age: u32) -> FilmState {
     let piece = sample::plate(triangles, seed).unwrap();

@@ -4,7 +4,7 @@ use bevy_math::{Mat3, Quat};
 use proptest::prelude::*;
 
 use super::*;
-use crate::film::build::sample::plate;
+use crate::remesh::sample::plate;
 
 /// A rectangle in the plane y = `height`, over `min` to `max` in x and z.
 fn roof(height: f32, min: [f32; 2], max: [f32; 2]) -> [[Vec3; 3]; 2] {

@@ -9,7 +9,8 @@ use bevy_math::Vec3;
 
 use super::*;
 use crate::{
-    film::{FilmMesh, HalfEdgeId, VertexId, build::sample},
+    film::{FilmMesh, HalfEdgeId, VertexId},
+    remesh::sample,
     settings::CoatingSettings,
     sim::FilmState,
 };

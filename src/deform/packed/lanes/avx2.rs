@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Place, Point};
+use super::{Lanes, Point, PointOffset};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Avx2(__m256);
@@ -75,7 +75,7 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
         unsafe {
             let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
             let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
@@ -86,7 +86,7 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm256_unpacklo_ps(z.0, w.0), _mm256_unpackhi_ps(z.0, w.0));
@@ -100,7 +100,7 @@ impl Lanes for Avx2 {
 
 /// Points 0 and 4 from `places` on, so that lanes end up in the order of the places.
 #[inline(always)]
-unsafe fn row(points: *const Point, places: *const Place) -> __m256 {
+unsafe fn row(points: *const Point, places: *const PointOffset) -> __m256 {
     unsafe {
         let row = _mm256_castps128_ps256(_mm_loadu_ps((*places).of(points).cast()));
         _mm256_insertf128_ps::<1>(row, _mm_loadu_ps((*places.wrapping_add(4)).of(points).cast()))
@@ -109,7 +109,7 @@ unsafe fn row(points: *const Point, places: *const Place) -> __m256 {
 
 /// Writes points 0 and 4 from `places` on.
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, places: *const Place, row: __m256) {
+unsafe fn put_row(points: *mut Point, places: *const PointOffset, row: __m256) {
     unsafe {
         _mm_storeu_ps((*places).of_mut(points).cast(), _mm256_castps256_ps128(row));
         _mm_storeu_ps((*places.wrapping_add(4)).of_mut(points).cast(), _mm256_extractf128_ps::<1>(row));

@@ -15,7 +15,7 @@ pub(super) mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub(super) mod sse2;
 
-use super::points::{Place, Point};
+use super::points::{Point, PointOffset};
 
 /// As many floats as fit a register.
 ///
@@ -46,7 +46,7 @@ pub(super) trait Lanes: Copy {
     /// `self` where the mask holds, +0 elsewhere.
     unsafe fn keep(self, mask: Self::Mask) -> Self;
     /// The four components of the points at `places`, a vector each.
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4];
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4];
     /// Writes four components to the points at `places`, which are all different or written the same.
-    unsafe fn scatter(points: *mut Point, places: *const Place, components: [Self; 4]);
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, components: [Self; 4]);
 }

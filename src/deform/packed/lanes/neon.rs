@@ -2,7 +2,7 @@
 
 use core::arch::aarch64::*;
 
-use super::{Lanes, Place, Point};
+use super::{Lanes, Point, PointOffset};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Neon(float32x4_t);
@@ -74,7 +74,7 @@ impl Lanes for Neon {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
         unsafe {
             let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
             let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
@@ -84,7 +84,7 @@ impl Lanes for Neon {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let [a, b, c, d] = transpose([x.0, y.0, z.0, w.0]);
             put_row(points, places, a);
@@ -117,11 +117,11 @@ unsafe fn high(a: float32x4_t, b: float32x4_t) -> float32x4_t {
 }
 
 #[inline(always)]
-unsafe fn row(points: *const Point, place: *const Place) -> float32x4_t {
+unsafe fn row(points: *const Point, place: *const PointOffset) -> float32x4_t {
     unsafe { vld1q_f32((*place).of(points).cast()) }
 }
 
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, place: *const Place, row: float32x4_t) {
+unsafe fn put_row(points: *mut Point, place: *const PointOffset, row: float32x4_t) {
     unsafe { vst1q_f32((*place).of_mut(points).cast(), row) }
 }

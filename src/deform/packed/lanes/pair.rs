@@ -1,6 +1,6 @@
 //! Two vectors side by side: while one waits for a division or a square root, the other goes on.
 
-use super::{Lanes, Place, Point};
+use super::{Lanes, Point, PointOffset};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Pair<L>(L, L);
@@ -75,7 +75,7 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
         unsafe {
             let [x, y, z, w] = L::gather(points, places);
             let [x_2, y_2, z_2, w_2] = L::gather(points, places.wrapping_add(L::WIDTH));
@@ -84,7 +84,7 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             L::scatter(points, places, [x.0, y.0, z.0, w.0]);
             L::scatter(points, places.wrapping_add(L::WIDTH), [x.1, y.1, z.1, w.1]);

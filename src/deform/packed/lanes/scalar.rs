@@ -1,6 +1,6 @@
 //! One float at a time: the twin that runs everywhere.
 
-use super::{Lanes, Place, Point};
+use super::{Lanes, Point, PointOffset};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Scalar(f32);
@@ -73,14 +73,14 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
         // SAFETY: the caller's.
         let Point([x, y, z, w]) = unsafe { *(*places).of(points) };
         [Self(x), Self(y), Self(z), Self(w)]
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         // SAFETY: the caller's.
         unsafe { *(*places).of_mut(points) = Point([x.0, y.0, z.0, w.0]) }
     }

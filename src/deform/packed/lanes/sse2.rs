@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Place, Point};
+use super::{Lanes, Point, PointOffset};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Sse2(__m128);
@@ -74,7 +74,7 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const Place) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
         unsafe {
             let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
             let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
@@ -90,7 +90,7 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const Place, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm_unpacklo_ps(x.0, y.0), _mm_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm_unpacklo_ps(z.0, w.0), _mm_unpackhi_ps(z.0, w.0));
@@ -103,11 +103,11 @@ impl Lanes for Sse2 {
 }
 
 #[inline(always)]
-unsafe fn row(points: *const Point, place: *const Place) -> __m128 {
+unsafe fn row(points: *const Point, place: *const PointOffset) -> __m128 {
     unsafe { _mm_loadu_ps((*place).of(points).cast()) }
 }
 
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, place: *const Place, row: __m128) {
+unsafe fn put_row(points: *mut Point, place: *const PointOffset, row: __m128) {
     unsafe { _mm_storeu_ps((*place).of_mut(points).cast(), row) }
 }

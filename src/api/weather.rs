@@ -1,0 +1,130 @@
+//! The weather that all films share.
+
+use bevy::{
+    ecs::{reflect::ReflectResource, resource::Resource},
+    math::Vec3,
+    reflect::prelude::*,
+    transform::components::GlobalTransform,
+};
+
+use super::clock::CoatingGravity;
+use crate::stain::Environment;
+/// Most that [wind](CoatingWeather::wind) may pull, in gravities.
+const MAX_WIND: f32 = 100.0;
+/// Most that [gusts](CoatingWeather::gusts) may spread, in metres after one metre.
+const MAX_GUSTS: f32 = 100.0;
+
+/// Wind, rain and sun in the world. By default the air is still, and there is neither rain nor sun.
+///
+/// Each film feels them in its own space, so that they turn when its prop is turned. Values that are out of range
+/// are brought into it, and those that are NaN or infinite count as zero; a warning says so.
+///
+/// What stands around a prop shelters it from rain and sun: see [`RainShelter`](super::shelter::RainShelter) and
+/// [`Shelter`](super::shelter::Shelter).
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Reflect)]
+#[reflect(Resource, Default, Debug, Clone, PartialEq)]
+pub struct CoatingWeather {
+    /// Direction in which the wind blows, as long as it pulls at run-off: 1 pulls as hard as gravity. Length 0 to
+    /// 100, default zero: still air.
+    pub wind: Vec3,
+    /// How far gusts spread run-off sideways: the standard deviation in metres after one metre. 0 to 100, default 0.
+    pub gusts: f32,
+    /// Direction in which rain falls, as long as there is rain. Length 0 to 1, default zero: dry weather.
+    pub rain: Vec3,
+    /// Direction in which sunlight falls, as long as it is strong. Length 0 to 1, default zero: shade.
+    pub sun: Vec3,
+}
+
+impl CoatingWeather {
+    /// The weather with every value in its range, and the names of those that were not.
+    pub(crate) fn checked(&self) -> (Self, Vec<&'static str>) {
+        let mut faults = Vec::new();
+        let mut vector = |name, value, most| {
+            let valid = within(value, most);
+            if valid != value {
+                faults.push(name);
+            }
+            valid
+        };
+        let wind = vector("wind", self.wind, MAX_WIND);
+        let rain = vector("rain", self.rain, 1.0);
+        let sun = vector("sun", self.sun, 1.0);
+        let gusts = if self.gusts.is_finite() { self.gusts.clamp(0.0, MAX_GUSTS) } else { 0.0 };
+        if gusts != self.gusts {
+            faults.push("gusts");
+        }
+        (Self { wind, gusts, rain, sun }, faults)
+    }
+
+    /// Whether there is rain or sun.
+    pub(crate) fn reaches_anything(&self) -> bool {
+        let (weather, _) = self.checked();
+        weather.rain != Vec3::ZERO || weather.sun != Vec3::ZERO
+    }
+
+    /// What works on a film that is turned by `transform`: gravity and the weather in its space, which has the
+    /// world scale applied, so that only the rotation counts.
+    pub(crate) fn environment(&self, gravity: CoatingGravity, transform: &GlobalTransform) -> Environment {
+        let (weather, _) = self.checked();
+        let turn = transform.rotation().inverse();
+        // The rotation of a prop that is scaled to nothing is no number.
+        let turned = |v: Vec3| Some(turn * v).filter(|v| v.is_finite()).unwrap_or(Vec3::ZERO);
+        Environment {
+            gravity: (turn * gravity.0).normalize_or_zero(),
+            wind: turned(weather.wind),
+            gusts: weather.gusts,
+            rain: turned(weather.rain),
+            sun: turned(weather.sun),
+        }
+    }
+}
+
+/// `v`, shortened to `most`; zero if it is not finite.
+fn within(v: Vec3, most: f32) -> Vec3 {
+    if !v.is_finite() {
+        return Vec3::ZERO;
+    }
+    // Directions are often normalised, and then longer than 1 by a rounding.
+    if v.length() <= most * (1.0 + 1e-5) { v } else { v.normalize_or_zero() * most }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weather_out_of_range_is_brought_into_it() {
+        let (valid, faults) = CoatingWeather {
+            wind: Vec3::new(f32::NAN, 0.0, 0.0),
+            gusts: -1.0,
+            rain: Vec3::new(0.0, -3.0, 0.0),
+            sun: Vec3::new(0.0, f32::NEG_INFINITY, 1.0),
+        }
+        .checked();
+        assert_eq!(valid, CoatingWeather { rain: Vec3::NEG_Y, ..CoatingWeather::default() });
+        assert_eq!(faults, ["wind", "rain", "sun", "gusts"]);
+        // Too long to be measured, and a gale.
+        let (valid, faults) = CoatingWeather { wind: Vec3::MAX, rain: Vec3::X * 400.0, ..valid }.checked();
+        assert!(valid.wind.length() <= MAX_WIND && valid.rain == Vec3::X, "{valid:?}");
+        assert_eq!(faults, ["wind", "rain"]);
+    }
+
+    #[test]
+    fn weather_in_range_is_left_alone() {
+        let direction = Vec3::new(1.0, -2.0, 0.5).normalize();
+        let weather = CoatingWeather { wind: direction * 3.0, gusts: 0.2, rain: direction, sun: direction * 0.5 };
+        assert_eq!(weather.checked(), (weather, Vec::new()));
+        assert_eq!(CoatingWeather::default().checked().1, Vec::<&str>::new());
+    }
+
+    #[test]
+    fn a_prop_without_a_rotation_feels_no_weather() {
+        let weather =
+            CoatingWeather { wind: Vec3::X, rain: Vec3::NEG_Y, sun: Vec3::NEG_Y, ..CoatingWeather::default() };
+        let flat = GlobalTransform::from_scale(Vec3::ZERO);
+        let environment = weather.environment(CoatingGravity::default(), &flat);
+        for v in [environment.gravity, environment.wind, environment.rain, environment.sun] {
+            assert!(v.is_finite(), "{environment:?}");
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Backs of the flakes: separated faces, reversed, one thickness behind their fronts.
+
+use bevy_math::Vec3;
+
+use super::{
+    MeshPart,
+    face_slots::{FaceSlots, has_separated},
+    wedges::Wedges,
+};
+use crate::{film::Topology, fracture::FilmForces};
+
+/// No back yet, in the lookup.
+const NONE: u32 = u32::MAX;
+
+/// The backs of all slots.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Backs {
+    pub part: MeshPart,
+    /// Slot and front vertex behind which each vertex lies.
+    fronts: Vec<(usize, u32)>,
+    /// Vertex behind each corner that stands for a front vertex.
+    of_corner: Vec<u32>,
+}
+
+impl Backs {
+    /// Finds the separated faces anew.
+    pub fn renew(&mut self, topology: &Topology, forces: &FilmForces, face_slots: &FaceSlots, wedges: &Wedges) {
+        let Self { part, fronts, of_corner } = self;
+        part.clear();
+        fronts.clear();
+        of_corner.clear();
+        of_corner.resize(topology.half_edge_count(), NONE);
+        for f in topology.live_faces().filter(|&f| has_separated(topology, forces, f)) {
+            let slot = face_slots.slot(f);
+            let [a, b, c] = face_slots.corners(f);
+            for h in [a, c, b] {
+                let front = wedges.vertex_of(h);
+                let back = &mut of_corner[wedges.corners(slot)[front as usize].index()];
+                if *back == NONE {
+                    *back = fronts.len() as u32;
+                    fronts.push((slot, front));
+                }
+                part.indices.push(*back);
+            }
+        }
+        part.positions.resize(fronts.len(), [0.0; 3]);
+        part.normals.resize(fronts.len(), [0.0; 3]);
+    }
+
+    /// Gives the backs the stains and places of their fronts.
+    pub fn stain(&mut self, fronts: &[MeshPart]) {
+        let Self { part, fronts: behind, .. } = self;
+        part.stains.clear();
+        part.stains.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].stains[vertex as usize]));
+        part.rest.clear();
+        part.rest.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest[vertex as usize]));
+        part.rest_normals.clear();
+        part.rest_normals.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest_normals[vertex as usize]));
+    }
+
+    /// Moves the backs to where the fronts are now.
+    pub fn follow(&mut self, fronts: &[MeshPart], thickness: f32) {
+        for (i, &(slot, vertex)) in self.fronts.iter().enumerate() {
+            let front = &fronts[slot];
+            let normal = Vec3::from_array(front.normals[vertex as usize]);
+            let position = Vec3::from_array(front.positions[vertex as usize]);
+            self.part.positions[i] = (position - normal * thickness).to_array();
+            self.part.normals[i] = (-normal).to_array();
+        }
+    }
+}

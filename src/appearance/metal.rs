@@ -1,0 +1,80 @@
+//! Bare metal: the film at rest where it has separated or is gone, pushed under itself.
+
+use super::{
+    CornerAttributes, MeshPart,
+    face_slots::{FaceSlots, has_separated},
+    part::shown_stains,
+    wedges::Wedges,
+};
+use crate::{
+    film::{FilmMesh, VertexId},
+    fracture::FilmForces,
+    stain::StainFields,
+};
+
+/// No vertex yet, in the lookup.
+const NONE: u32 = u32::MAX;
+
+/// The metal of all slots.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Metal {
+    pub part: MeshPart,
+    /// Vertex of each wedge at rest.
+    of_wedge: Vec<u32>,
+    /// Original film vertex that each vertex lies under.
+    originals: Vec<VertexId>,
+}
+
+impl Metal {
+    /// Finds the exposed faces anew. `depth` is how far the metal lies under the film.
+    pub fn renew(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        face_slots: &FaceSlots,
+        wedges: &Wedges,
+        attributes: &CornerAttributes,
+        depth: f32,
+    ) {
+        let Self { part, of_wedge, originals } = self;
+        let (topology, geometry) = (&mesh.topology, &mesh.geometry);
+        part.clear();
+        originals.clear();
+        of_wedge.clear();
+        of_wedge.resize(wedges.rest_count(), NONE);
+        for f in topology.all_faces() {
+            if topology.is_live(f) && !has_separated(topology, forces, f) {
+                continue;
+            }
+            for h in face_slots.corners(f) {
+                let vertex = &mut of_wedge[wedges.at_rest(h) as usize];
+                if *vertex == NONE {
+                    *vertex = part.positions.len() as u32;
+                    let original = topology.original(topology.origin(h));
+                    let v = original.index();
+                    originals.push(original);
+                    part.rest.push(geometry.rest_positions[v].to_array());
+                    part.rest_normals.push(attributes.normals[h.index()].to_array());
+                    let outwards = if face_slots.is_flipped(f) { depth } else { -depth };
+                    let position = geometry.rest_positions[v] + geometry.rest_normals[v] * outwards;
+                    part.positions.push(position.to_array());
+                    part.normals.push(attributes.normals[h.index()].to_array());
+                    part.uvs.extend(attributes.uvs.get(h.index()).map(|uv| uv.to_array()));
+                }
+                part.indices.push(*vertex);
+            }
+        }
+    }
+
+    /// Gives the metal its stains.
+    pub fn stain(&mut self, stains: &StainFields) {
+        let layer = &stains.metal;
+        self.part.stains.clear();
+        self.part.stains.extend(
+            self.originals
+                .iter()
+                .map(|v| v.index())
+                .map(|v| shown_stains(layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v])),
+        );
+    }
+}

@@ -1,0 +1,250 @@
+//! What is shown of a film, as plain arrays: the film wearing the prop's surface, the backs of its flakes and the
+//! bare metal beneath.
+//!
+//! | part | holds | moves |
+//! |---|---|---|
+//! | [`FilmAppearance::front`] | all live faces, with the prop's own corner attributes | with the film |
+//! | [`FilmAppearance::backs`] | live faces that have separated, seen from behind | with the film |
+//! | [`FilmAppearance::metal`] | faces that have separated or are gone, at rest, just under the film | never |
+//!
+//! A face has separated when any of its vertices has. Faces that are still attached have neither back nor metal, so
+//! a fresh film looks exactly like the prop that it was made of. The same arrays serve the plugin's meshes and baked
+//! models.
+
+mod backs;
+mod corners;
+mod face_slots;
+mod metal;
+mod moves;
+mod normals;
+mod part;
+pub mod shading;
+#[cfg(test)]
+mod tests;
+mod wedges;
+
+pub use corners::CornerAttributes;
+pub use part::MeshPart;
+
+use crate::{
+    film::{FilmMesh, HalfEdgeId, Topology},
+    fracture::FilmForces,
+    remesh::BuiltFilm,
+    stain::StainFields,
+    surface::Surface,
+};
+use backs::Backs;
+use face_slots::FaceSlots;
+use metal::Metal;
+use moves::Moves;
+use normals::CornerFrames;
+use part::shown_stains;
+use wedges::Wedges;
+
+/// Thickness of the paint, in mean edges: how far a flake's back lies behind its front.
+pub const FILM_THICKNESS: f32 = 0.01;
+/// How far the metal lies under the film at rest, in mean edges: more than the thickness, so that it never shows
+/// through the back of a flake that has only just let go.
+pub const METAL_DEPTH: f32 = 0.02;
+
+/// What [`FilmAppearance::update`] changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShownChange {
+    /// Vertices of fronts and backs were added or renumbered, and their indices rewritten; else only positions,
+    /// normals and tangents were.
+    pub topology: bool,
+    /// Other faces than before show their backs or the metal under them.
+    pub exposure: bool,
+    /// Stains look different.
+    pub stains: bool,
+}
+
+/// The shown parts of one film, and what is needed to bring them up to date.
+#[derive(Clone, Debug)]
+pub struct FilmAppearance {
+    attributes: CornerAttributes,
+    face_slots: FaceSlots,
+    frames: CornerFrames,
+    wedges: Wedges,
+    moves: Moves,
+    fronts: Vec<MeshPart>,
+    backs: Backs,
+    metal: Metal,
+    seen: Option<Seen>,
+}
+
+/// The film's state at the last update, as far as it matters to connectivity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Seen {
+    vertices: usize,
+    torn: u32,
+    removed: usize,
+    separated: u32,
+    stains: u32,
+}
+
+impl FilmAppearance {
+    /// The shown parts of the film of `built`, which was made of `surface`, in the state of `mesh`, `forces` and
+    /// `stains`.
+    pub fn new(
+        built: &BuiltFilm,
+        surface: &Surface,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+    ) -> Self {
+        let attributes = CornerAttributes::sample(built, surface, mesh);
+        let face_slots = FaceSlots::new(built, mesh.topology.face_count());
+        let mut shown = Self {
+            frames: CornerFrames::new(mesh, &attributes),
+            wedges: Wedges::new(mesh, &attributes, &face_slots),
+            moves: Moves::default(),
+            fronts: vec![MeshPart::default(); face_slots.slot_count()],
+            attributes,
+            face_slots,
+            backs: Backs::default(),
+            metal: Metal::default(),
+            seen: None,
+        };
+        shown.update(mesh, forces, stains);
+        shown
+    }
+
+    /// Number of slots: primitives, each with a material of its own.
+    pub fn slot_count(&self) -> usize {
+        self.fronts.len()
+    }
+
+    /// The film of one slot; `None` for a slot that no face has.
+    pub fn front(&self, slot: usize) -> Option<&MeshPart> {
+        self.fronts.get(slot)
+    }
+
+    /// The backs of the flakes of all slots: positions and normals only.
+    pub fn backs(&self) -> &MeshPart {
+        &self.backs.part
+    }
+
+    /// The bare metal of all slots, with first texture coordinates where the prop has some.
+    pub fn metal(&self) -> &MeshPart {
+        &self.metal.part
+    }
+
+    /// Brings the parts up to date with the film.
+    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> ShownChange {
+        let topology = &mesh.topology;
+        let seen = Seen {
+            vertices: topology.vertex_count(),
+            torn: forces.torn_edges,
+            removed: topology.removed_face_count(),
+            separated: forces.separations,
+            stains: stains.revision,
+        };
+        let topology_changed = self
+            .seen
+            .is_none_or(|old| (old.vertices, old.torn, old.removed) != (seen.vertices, seen.torn, seen.removed));
+        let exposure_changed =
+            self.seen.is_none_or(|old| (old.removed, old.separated) != (seen.removed, seen.separated));
+        let stains_changed = self.seen.is_none_or(|old| old.stains != seen.stains);
+        self.seen = Some(seen);
+        if topology_changed {
+            self.wedges.renew(topology, &self.face_slots);
+            self.write_front_attributes(mesh);
+            self.write_front_indices(topology);
+        }
+        // What is new or has new neighbours is looked at like what moved.
+        let moved = self.moves.follow(mesh, topology_changed);
+        if moved {
+            self.frames.turn_faces(mesh, &self.attributes, &self.moves);
+            self.frames.add_up(topology, &self.moves);
+            self.write_front_frames(mesh);
+        }
+        if topology_changed || exposure_changed {
+            self.backs.renew(topology, forces, &self.face_slots, &self.wedges);
+        }
+        if moved || topology_changed || exposure_changed {
+            self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
+        }
+        if exposure_changed {
+            let depth = mesh.geometry.mean_edge * METAL_DEPTH;
+            self.metal.renew(mesh, forces, &self.face_slots, &self.wedges, &self.attributes, depth);
+        }
+        if topology_changed || stains_changed {
+            self.write_front_stains(topology, stains);
+        }
+        if topology_changed || exposure_changed || stains_changed {
+            self.backs.stain(&self.fronts);
+        }
+        if exposure_changed || stains_changed {
+            self.metal.stain(stains);
+        }
+        ShownChange { topology: topology_changed, exposure: exposure_changed, stains: stains_changed }
+    }
+
+    fn write_front_attributes(&mut self, mesh: &FilmMesh) {
+        for (slot, part) in self.fronts.iter_mut().enumerate() {
+            let corners = self.wedges.corners(slot);
+            let count = corners.len();
+            part.positions.resize(count, [0.0; 3]);
+            part.normals.resize(count, [0.0; 3]);
+            part.tangents.resize(if self.attributes.tangents.is_empty() { 0 } else { count }, [0.0; 4]);
+            copy(&mut part.uvs, &self.attributes.uvs, corners);
+            copy(&mut part.uvs_1, &self.attributes.uvs_1, corners);
+            copy(&mut part.colors, &self.attributes.colors, corners);
+            let rest = |&h| mesh.geometry.rest_positions[mesh.topology.origin(h).index()].to_array();
+            part.rest.clear();
+            part.rest.extend(corners.iter().map(rest));
+            copy(&mut part.rest_normals, &self.attributes.normals, corners);
+        }
+    }
+
+    fn write_front_stains(&mut self, topology: &Topology, stains: &StainFields) {
+        for (slot, part) in self.fronts.iter_mut().enumerate() {
+            part.stains.clear();
+            part.stains.extend(self.wedges.corners(slot).iter().map(|&h| {
+                let v = topology.origin(h);
+                let (film, metal) = (v.index(), topology.original(v).index());
+                let layer = &stains.film;
+                shown_stains(layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal])
+            }));
+        }
+    }
+
+    fn write_front_indices(&mut self, topology: &Topology) {
+        for part in &mut self.fronts {
+            part.indices.clear();
+        }
+        for f in topology.live_faces() {
+            let corners = self.face_slots.corners(f).map(|h| self.wedges.vertex_of(h));
+            if let Some(part) = self.fronts.get_mut(self.face_slots.slot(f)) {
+                part.indices.extend(corners);
+            }
+        }
+    }
+
+    fn write_front_frames(&mut self, mesh: &FilmMesh) {
+        let Self { fronts, wedges, frames, attributes, moves, .. } = self;
+        for (slot, part) in fronts.iter_mut().enumerate() {
+            for (i, &h) in wedges.corners(slot).iter().enumerate() {
+                let v = mesh.topology.origin(h);
+                if !moves.is_turned(v) {
+                    continue;
+                }
+                part.positions[i] = mesh.geometry.positions[v.index()].to_array();
+                let normal = frames.normal(&mesh.topology, attributes, h);
+                part.normals[i] = normal.to_array();
+                if let Some(tangent) = part.tangents.get_mut(i) {
+                    *tangent = frames.tangent(&mesh.topology, attributes, h, normal).to_array();
+                }
+            }
+        }
+    }
+}
+
+/// Rewrites `to` with the attribute at each of `corners`; empties it if the prop does not have the attribute.
+fn copy<T: Copy + Into<[f32; N]>, const N: usize>(to: &mut Vec<[f32; N]>, from: &[T], corners: &[HalfEdgeId]) {
+    to.clear();
+    if !from.is_empty() {
+        to.extend(corners.iter().map(|h| from[h.index()].into()));
+    }
+}

@@ -1,0 +1,133 @@
+//! Stains on paint: run-off, dust and water, on its front and on the backs of its flakes.
+
+use bevy_math::{Vec3, ops};
+
+use super::{
+    FilmShading, StainPattern, StainSample, SurfaceShading,
+    noise::{Grain, mix, smoothstep},
+};
+
+/// Softness of the edges of streaks.
+const STREAK_EDGE: f32 = 0.26;
+/// Linear colour below which a channel is black.
+const DARKEST: f32 = 1e-3;
+/// Reflectance of rust: it scatters.
+const RUST_REFLECTANCE: f32 = 0.3;
+/// Reflectance of a film of water, 2 %.
+const WATER_REFLECTANCE: f32 = 0.36;
+
+impl FilmShading {
+    /// Paint of the look `base` with the stains of `s` on it. Where there are none, `base` itself.
+    pub fn film(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
+        let stained = self.run_off(base, s, p, 1.0);
+        let dusty = self.dusty(stained, s, p);
+        self.wet(dusty, s, p, s.rust.max(s.dust))
+    }
+
+    /// The back of a flake of the look `base`, its primer: rust creeps in from the edges, where the metal lies bare.
+    pub fn back(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
+        let mut shading = base;
+        if s.corrosion > 0.0 {
+            let blotches = p.grain(s.rest, self.blotches());
+            let cover = self.stains.creep * blotches.cover(s.corrosion, 0.12);
+            let thick = smoothstep(0.5, 1.0, s.corrosion * blotches.around(0.9, 0.4));
+            shading = self.rusted(shading, self.stains.rust_thin.lerp(self.stains.rust_thick, thick), cover);
+        }
+        self.film(shading, s, p)
+    }
+
+    /// Run-off (VC 6.1): its cover follows 0.85 (1 - exp(-3 layers)), broken up into streaks.
+    /// `hold` is how much of it the surface holds: 1 paint.
+    pub(super) fn run_off(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern, hold: f32) -> SurfaceShading {
+        if s.rust <= 0.0 {
+            return base;
+        }
+        let amount = 1.0 - ops::exp(-3.0 * s.rust);
+        let streak = self.streaks(s, p);
+        let hair = self.hairs(s, p);
+        let blotches = p.grain(s.rest, self.blotches());
+        // Cores of streaks over a thin wash, both drawn out into hairs.
+        let core = streak.cover(amount, STREAK_EDGE);
+        let wash = amount * streak.around(1.0, 0.7) * blotches.around(1.0, 0.25);
+        let cover = (mix(wash, core, 0.5) * hair.around(1.0, 0.3)).clamp(0.0, 1.0) * self.stains.rust_strength * hold;
+        let depth = amount * streak.around(0.72, 0.42) * hair.around(1.0, 0.2);
+        let thick = smoothstep(0.3, 1.05, depth + 0.1 * blotches.around(0.0, 1.0));
+        let color = self.stains.rust_thin.lerp(self.stains.rust_thick, thick) * blotches.around(1.0, 0.16);
+        self.rusted(base, color, cover)
+    }
+
+    /// Dust and soot (VC 6.2): darkens, and lowers the reflectance.
+    pub(super) fn dusty(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
+        if s.dust <= 0.0 {
+            return base;
+        }
+        let size = self.stains.dust_size;
+        let patches = p.grain(s.rest, [(size * 3.0, 0.5), (size * 0.9, 0.35), (size * 0.12, 0.2)]);
+        let washed = self.streaks(s, p);
+        let gathered = (s.dust * patches.around(1.0, 0.18) * washed.around(1.0, 0.15)).min(1.0);
+        let cover = self.stains.dust_strength * gathered;
+        SurfaceShading {
+            base_color: base.base_color.lerp(self.stains.dust, cover),
+            metallic: base.metallic * (1.0 - cover),
+            roughness: mix(base.roughness, base.roughness.max(0.95), (1.3 * cover).min(1.0)),
+            reflectance: base.reflectance * (1.0 - self.stains.dust_dulling * gathered),
+            height: base.height,
+        }
+    }
+
+    /// Water: darker and glossier. `porous` is how much there is to soak it up, 0 or more.
+    pub(super) fn wet(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern, porous: f32) -> SurfaceShading {
+        if s.moisture <= 0.0 {
+            return base;
+        }
+        let size = self.stains.dust_size;
+        // Sheets of water, without edges: nearly even where all is wet.
+        let sheets = p.streak(s.rest, s.normal, [(size * 2.4, 0.5), (size * 0.8, 0.4), (size * 0.25, 0.2)], 5.0);
+        let wet = mix(s.moisture, sheets.cover(s.moisture, 0.5), 0.25);
+        let darkening = (self.stains.wet_darkening * (1.0 + 0.5 * porous.min(1.0))).min(1.0);
+        SurfaceShading {
+            base_color: base.base_color * (1.0 - darkening * wet),
+            metallic: base.metallic,
+            roughness: mix(base.roughness, base.roughness.min(self.stains.wet_roughness), 0.9 * wet),
+            reflectance: mix(base.reflectance, base.reflectance.max(WATER_REFLECTANCE), wet),
+            height: base.height * (1.0 - 0.5 * wet),
+        }
+    }
+
+    /// `cover` of the surface hidden under rust of `color`. Where rust is darker it stains as a filter does, channel by
+    /// channel, so that thin rust on light paint is orange, not pink; where it is lighter it lies on the paint, or rust
+    /// on blue would be green.
+    pub(super) fn rusted(&self, base: SurfaceShading, color: Vec3, cover: f32) -> SurfaceShading {
+        let stained = |base: f32, rust: f32| {
+            if rust >= base {
+                return mix(base, rust, cover);
+            }
+            base * ops::powf(rust.max(DARKEST) / base.max(DARKEST), cover)
+        };
+        let (from, to) = (base.base_color, color);
+        SurfaceShading {
+            base_color: Vec3::new(stained(from.x, to.x), stained(from.y, to.y), stained(from.z, to.z)),
+            metallic: base.metallic * (1.0 - cover),
+            roughness: mix(base.roughness, self.stains.rust_roughness, cover),
+            reflectance: mix(base.reflectance, RUST_REFLECTANCE, cover),
+            height: base.height,
+        }
+    }
+
+    pub(super) fn streaks(&self, s: &StainSample, p: &StainPattern) -> Grain {
+        let width = self.stains.streak_width;
+        let octaves = [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)];
+        p.streak(s.rest, s.normal, octaves, self.stains.streak_stretch)
+    }
+
+    fn hairs(&self, s: &StainSample, p: &StainPattern) -> Grain {
+        let width = self.stains.streak_width;
+        let octaves = [(width * 0.6, 0.4), (width * 0.25, 0.4), (width * 0.1, 0.3)];
+        p.streak(s.rest, s.normal, octaves, 2.5 * self.stains.streak_stretch)
+    }
+
+    fn blotches(&self) -> [(f32, f32); 3] {
+        let size = self.metal.patch_size;
+        [(size * 0.35, 0.5), (size * 0.12, 0.35), (size * 0.04, 0.25)]
+    }
+}

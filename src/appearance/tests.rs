@@ -1,0 +1,150 @@
+//! What is shown at rest is the prop; what is shown later follows the film.
+
+use bevy_math::{Vec2, Vec3};
+
+use super::{face_slots::has_separated, *};
+use crate::{remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment};
+
+fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
+    let piece = sample::plate(600, 4).unwrap();
+    let mut settings = CoatingSettings::default();
+    settings.deform.sweeps_per_age = 2000.0;
+    let mut film = FilmState::new(&piece.film, &settings, 4, 250).unwrap();
+    let mut shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    film.age_to(age, &settings, &Environment::default());
+    shown.update(&film.mesh, &film.forces, &film.stains);
+    (film, shown, piece.surface)
+}
+
+fn triangles(part: &MeshPart) -> impl Iterator<Item = [usize; 3]> + '_ {
+    part.indices.chunks_exact(3).map(|t| [0, 1, 2].map(|i| t[i] as usize))
+}
+
+fn at(values: &[[f32; 3]], i: usize) -> Vec3 {
+    Vec3::from_array(values[i])
+}
+
+#[test]
+fn a_fresh_film_is_the_prop_and_nothing_else() {
+    let (film, shown, surface) = aged(0.0);
+    let front = shown.front(0).unwrap();
+    assert_eq!(shown.slot_count(), 1);
+    assert_eq!(front.indices.len(), 1800);
+    assert_eq!(front.positions.len(), film.mesh.topology.vertex_count(), "one vertex each on a smooth plate");
+    assert!(shown.backs().is_empty() && shown.metal().is_empty());
+    for (t, f) in triangles(front).zip(film.mesh.topology.all_faces()) {
+        for (i, k) in t.into_iter().zip(0..3) {
+            let corner = f.index() * 3 + k;
+            assert_eq!(at(&front.positions, i), surface.positions[surface.triangles[f.index()][k] as usize]);
+            assert!(at(&front.normals, i).abs_diff_eq(surface.normals[corner], 1e-6), "the prop's own");
+            assert!(Vec2::from_array(front.uvs[i]).abs_diff_eq(surface.uvs[corner], 1e-6));
+        }
+    }
+}
+
+#[test]
+fn backs_and_metal_show_where_film_separated_and_only_there() {
+    let (film, shown, _) = aged(0.8);
+    let topology = &film.mesh.topology;
+    let separated = topology.live_faces().filter(|&f| has_separated(topology, &film.forces, f)).count();
+    let removed = topology.face_count() - topology.live_faces().count();
+    assert!(separated > 100 && removed > 2, "{separated} {removed}");
+    assert_eq!(shown.front(0).unwrap().indices.len(), topology.live_faces().count() * 3);
+    assert_eq!(shown.backs().indices.len(), separated * 3);
+    assert_eq!(shown.metal().indices.len(), (separated + removed) * 3);
+    // The metal lies flat, just under the film at rest, facing out; backs face the other way than their fronts.
+    let depth = film.mesh.geometry.mean_edge * METAL_DEPTH;
+    assert!(shown.metal().positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
+    assert!(shown.metal().normals.iter().all(|n| n[2] > 0.99999));
+    for part in [shown.metal(), shown.backs(), shown.front(0).unwrap()] {
+        assert_eq!(part.positions.len(), part.normals.len());
+        let mut agree = 0;
+        for t in triangles(part) {
+            let [a, b, c] = t.map(|i| at(&part.positions, i));
+            agree += usize::from((b - a).cross(c - a).dot(at(&part.normals, t[0])) > 0.0);
+        }
+        assert!(agree * 3 > part.indices.len() * 95 / 100, "winding agrees with normals: {agree}");
+    }
+}
+
+#[test]
+fn shown_vertices_part_where_the_film_tore_and_nowhere_else() {
+    let (film, shown, _) = aged(0.7);
+    let (topology, front) = (&film.mesh.topology, shown.front(0).unwrap());
+    let mut edges = std::collections::BTreeMap::new();
+    for t in triangles(front) {
+        for k in 0..3 {
+            *edges.entry((t[k], t[(k + 1) % 3])).or_insert(0) += 1;
+        }
+    }
+    let shared = edges.iter().filter(|((a, b), _)| edges.contains_key(&(*b, *a))).count();
+    let bound =
+        topology.all_half_edges().filter(|&h| topology.is_live(h.face()) && topology.bound_twin(h).is_some()).count();
+    assert_eq!(shared, bound, "watertight where nothing tore");
+    assert!(edges.values().all(|&n| n == 1));
+}
+
+#[test]
+fn normals_follow_the_film_as_it_bends() {
+    let (film, shown, _) = aged(0.8);
+    let front = shown.front(0).unwrap();
+    let (mut close, mut turned) = (0, 0);
+    for t in triangles(front) {
+        let [a, b, c] = t.map(|i| at(&front.positions, i));
+        let face = (b - a).cross(c - a).normalize_or_zero();
+        for i in t {
+            let normal = at(&front.normals, i);
+            assert!((normal.length() - 1.0).abs() < 1e-3);
+            close += usize::from(normal.dot(face) > 0.6);
+            turned += usize::from(normal.z < 0.95);
+        }
+    }
+    assert!(close * 10 > front.indices.len() * 9, "{close} of {}", front.indices.len());
+    assert!(turned > 50, "{turned}");
+    assert!(film.measure().lift_p90 > Some(0.3));
+}
+
+#[test]
+fn updates_say_what_changed() {
+    let piece = sample::plate(300, 1).unwrap();
+    let settings = CoatingSettings::default();
+    let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
+    let mut shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    assert_eq!(shown.update(&film.mesh, &film.forces, &film.stains), ShownChange::default());
+    let (mut topology, mut exposure) = (false, false);
+    for _ in 0..100 {
+        film.step(&settings, &Environment::default());
+        let change = shown.update(&film.mesh, &film.forces, &film.stains);
+        assert_eq!(change.topology, !film.changes.torn.is_empty() || !film.changes.removed.is_empty());
+        assert_eq!(change.exposure, !film.changes.separated.is_empty() || !film.changes.removed.is_empty());
+        topology |= change.topology;
+        exposure |= change.exposure;
+    }
+    assert!(topology && exposure);
+}
+
+#[test]
+fn a_prop_without_normals_gets_smooth_ones_where_it_is_smooth() {
+    let piece = sample::curved_plate(400, 2).unwrap();
+    let surface = Surface { normals: Vec::new(), ..piece.surface };
+    let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
+    let shown = FilmAppearance::new(&piece.film, &surface, &film.mesh, &film.forces, &film.stains);
+    let front = shown.front(0).unwrap();
+    for (p, n) in front.positions.iter().zip(&front.normals) {
+        let out = Vec3::new(p[0], 0.0, p[2]).normalize();
+        assert!(Vec3::from_array(*n).dot(out) > 0.95);
+    }
+}
+
+#[test]
+fn flipped_faces_are_wound_as_the_prop_was() {
+    let mut piece = sample::plate(100, 2).unwrap();
+    piece.film.flipped = vec![true; 100];
+    let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
+    let shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let front = shown.front(0).unwrap();
+    for t in triangles(front) {
+        let [a, b, c] = t.map(|i| at(&front.positions, i));
+        assert!((b - a).cross(c - a).z < 0.0);
+    }
+}

@@ -1,0 +1,45 @@
+//! From a `Coating` to films on the meshes below it, and back.
+//!
+//! ```text
+//! mesh found --AwaitingFilm--> assets loaded --FilmBuild--> task done --> film components, Mesh3d swapped
+//!      ^                                                        |                        |
+//!      +---------------- handle swapped, coating changed -------+------------------------+
+//! ```
+//!
+//! All of it runs in `PostUpdate` once transforms are known, and nothing waits for a build.
+
+mod begin;
+mod build;
+mod detach;
+mod discover;
+mod finish;
+
+use bevy::{
+    app::{App, PostUpdate},
+    ecs::schedule::IntoScheduleConfigs,
+    transform::TransformSystems,
+};
+
+use crate::{
+    api::system_sets::CoatingAttach,
+    shelter::{self, ShelterScene},
+};
+
+pub(crate) fn add_attachment(app: &mut App) {
+    app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
+    app.init_resource::<ShelterScene>();
+    app.add_systems(
+        PostUpdate,
+        (
+            finish::finish_builds,
+            discover::find_meshes,
+            discover::follow_coatings,
+            shelter::survey,
+            begin::begin_builds,
+            shelter::cast,
+        )
+            .chain()
+            .in_set(CoatingAttach),
+    );
+    app.add_observer(detach::on_coating_removed);
+}

@@ -1,0 +1,183 @@
+//! The film wearing the prop's surface: one mesh for each primitive of the prop.
+
+use bevy::{
+    asset::{Assets, Handle},
+    ecs::{
+        change_detection::DetectChangesMut,
+        component::Component,
+        system::{Query, ResMut},
+    },
+    math::Vec3,
+    mesh::Mesh,
+};
+
+use super::{
+    FilmPaint,
+    mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
+};
+use crate::{
+    api::{diagnostics::CoatingTimings, revision::FilmRevision, stain_display::StainDisplay},
+    appearance::{FilmAppearance, ShownChange, shading::StainPart},
+    film::FilmMesh,
+    fracture::FilmForces,
+    mesh_reader::SlotAttributes,
+    remesh::BuiltFilm,
+    sim::{FilmState, Stage},
+    stain::StainFields,
+    surface::Surface,
+};
+/// What is shown of a film, and the assets that show it.
+#[derive(Component)]
+pub(crate) struct FilmDisplay {
+    pub(super) shown: FilmAppearance,
+    pub(super) space: PartSpace,
+    pub(super) paint: FilmPaint,
+    /// Mean distance between the film's vertices, in metres.
+    pub(super) edge: f32,
+    /// Whether the materials do not show `paint` yet.
+    #[cfg(feature = "render")]
+    pub(super) materials_outdated: bool,
+    slots: Vec<DisplaySlot>,
+    /// Revision that `shown` is up to date with.
+    seen: FilmRevision,
+    /// What the fronts' assets do not show yet.
+    pending: Option<ShownChange>,
+    /// What the assets of backs and metal do not show yet.
+    #[cfg(feature = "render")]
+    pub(super) pending_parts: Option<ShownChange>,
+    #[cfg(feature = "render")]
+    pub(super) parts: super::parts::PartHandles,
+}
+
+/// One primitive.
+struct DisplaySlot {
+    attributes: SlotAttributes,
+    /// Written while the film was built, until it is an asset.
+    mesh: Option<Mesh>,
+    handle: Option<Handle<Mesh>>,
+}
+
+impl FilmDisplay {
+    /// Display of a film at rest.
+    pub fn new(
+        film: &FilmState,
+        surface: &Surface,
+        built: &BuiltFilm,
+        slots: Vec<SlotAttributes>,
+        scale: Vec3,
+        paint: FilmPaint,
+    ) -> Self {
+        let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
+        Self {
+            shown: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
+            space: PartSpace::new(scale),
+            paint,
+            edge: film.mesh.geometry.mean_edge,
+            #[cfg(feature = "render")]
+            materials_outdated: false,
+            slots: slots.into_iter().map(empty).collect(),
+            seen: FilmRevision::default(),
+            pending: None,
+            // A film that has been aged already has backs and metal from the first frame on.
+            #[cfg(feature = "render")]
+            pending_parts: Some(ShownChange { topology: true, exposure: true, stains: true }),
+            #[cfg(feature = "render")]
+            parts: super::parts::PartHandles::default(),
+        }
+    }
+
+    /// Follows the film to where it is when it is put on its prop, and writes the meshes. Part of building it.
+    pub fn prepare(&mut self, film: &FilmState) {
+        self.shown.update(&film.mesh, &film.forces, &film.stains);
+        for (slot, display) in self.slots.iter_mut().enumerate() {
+            // A primitive of which nothing was left after cleaning keeps its mesh.
+            let Some(part) = self.shown.front(slot) else { continue };
+            let mut mesh = new_mesh();
+            let stains = front_writer(&self.paint, self.edge);
+            write_part(&mut mesh, part, display.attributes, self.space, stains);
+            display.mesh = Some(mesh);
+        }
+    }
+
+    /// Notes that `paint` is not shown yet, and what has to be written for it.
+    pub(super) fn repainted(&mut self, change: ShownChange) {
+        add(&mut self.pending, change);
+        #[cfg(feature = "render")]
+        {
+            add(&mut self.pending_parts, change);
+            self.materials_outdated = true;
+        }
+    }
+
+    /// Makes assets of the meshes; one handle a primitive, where the film has any of it.
+    pub fn put_on(&mut self, assets: &mut Assets<Mesh>) -> Vec<Option<Handle<Mesh>>> {
+        for slot in &mut self.slots {
+            slot.handle = slot.mesh.take().map(|mesh| assets.add(mesh));
+        }
+        self.slots.iter().map(|slot| slot.handle.clone()).collect()
+    }
+}
+
+/// Brings what is shown up to date with the films that changed, in parallel. Touches no asset.
+pub(super) fn follow_films(
+    mut films: Query<(&FilmMesh, &FilmForces, &StainFields, &FilmRevision, &mut FilmDisplay)>,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::MeshGeneration, || {
+        films.par_iter_mut().for_each(|(mesh, forces, stains, revision, mut display)| {
+            if display.seen == *revision {
+                return;
+            }
+            let display = display.bypass_change_detection();
+            display.seen = *revision;
+            let change = display.shown.update(mesh, forces, stains);
+            add(&mut display.pending, change);
+            #[cfg(feature = "render")]
+            add(&mut display.pending_parts, change);
+        });
+    });
+}
+
+/// How the stains of fronts get into their meshes.
+fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
+    let carrier = match paint.display {
+        StainDisplay::Material => StainCarrier::Attributes,
+        StainDisplay::VertexColor => StainCarrier::Colors,
+        StainDisplay::None => StainCarrier::Nothing,
+    };
+    StainWriter { part: StainPart::Film, paint, carrier, edge }
+}
+
+fn add(pending: &mut Option<ShownChange>, change: ShownChange) {
+    let pending = pending.get_or_insert_default();
+    pending.topology |= change.topology;
+    pending.exposure |= change.exposure;
+    pending.stains |= change.stains;
+}
+
+/// Writes the meshes of the films that changed.
+pub(super) fn write_fronts(
+    mut films: Query<&mut FilmDisplay>,
+    mut assets: ResMut<Assets<Mesh>>,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::MeshGeneration, || {
+        for mut display in &mut films {
+            let display = display.bypass_change_detection();
+            let Some(change) = display.pending.take() else { continue };
+            for (slot, front) in display.slots.iter().enumerate() {
+                let Some(part) = display.shown.front(slot) else { continue };
+                let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
+                let stains = front_writer(&display.paint, display.edge);
+                if change.topology {
+                    write_part(&mut mesh, part, front.attributes, display.space, stains);
+                    continue;
+                }
+                move_part(&mut mesh, part, display.space);
+                if change.stains {
+                    write_stains(&mut mesh, part, stains);
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,293 @@
+//! The backs of flakes and the bare metal: two children of a film's entity, spawned when they are first seen.
+
+use bevy::{
+    asset::{Assets, Handle},
+    camera::visibility::RenderLayers,
+    color::{Color, ColorToComponents, LinearRgba},
+    ecs::{
+        change_detection::DetectChangesMut,
+        entity::Entity,
+        hierarchy::ChildOf,
+        name::Name,
+        system::{Commands, Query, Res, ResMut, SystemParam},
+        world::{EntityRef, World},
+    },
+    light::{NotShadowCaster, NotShadowReceiver},
+    mesh::{Mesh, Mesh3d},
+    pbr::{MeshMaterial3d, StandardMaterial},
+    prelude::{AlphaMode, Visibility},
+    render::render_resource::Face,
+    transform::components::{GlobalTransform, Transform},
+};
+
+use super::{
+    CoatedMaterial, FilmDisplay, FilmPaint, StainExtension, StainView, StainedMaterial,
+    mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
+};
+use crate::{
+    api::{
+        diagnostics::CoatingTimings,
+        error::CoatingFault,
+        links::{CoatingPart, FilmSource},
+        stain_display::StainDisplay,
+    },
+    appearance::{MeshPart, ShownChange, shading::StainPart},
+    mesh_reader::SlotAttributes,
+    sim::Stage,
+};
+/// What a film's backs and metal are shown with, once they are.
+#[derive(Default)]
+pub(super) struct PartHandles {
+    backs: Option<PartHandle>,
+    metal: Option<PartHandle>,
+}
+
+struct PartHandle {
+    entity: Entity,
+    mesh: Handle<Mesh>,
+    material: PartMaterial,
+}
+
+enum PartMaterial {
+    /// Draws the stains.
+    Stained(Handle<StainedMaterial>),
+    /// Heeds the vertices' colours, where there is no other or the coating wants it so.
+    Plain(Handle<StandardMaterial>),
+}
+
+impl PartHandles {
+    /// The materials that draw stains.
+    pub fn stained(&self) -> impl Iterator<Item = &Handle<StainedMaterial>> {
+        [&self.backs, &self.metal].into_iter().flatten().filter_map(|part| match &part.material {
+            PartMaterial::Stained(handle) => Some(handle),
+            PartMaterial::Plain(_) => None,
+        })
+    }
+}
+
+/// Whether the app has standard materials at all: a server may not.
+pub(super) fn has_materials(materials: Option<Res<Assets<StandardMaterial>>>) -> bool {
+    materials.is_some()
+}
+
+/// Whether the material of a mesh is known; refuses blended ones.
+///
+/// # Errors
+/// [`CoatingFault::AlphaBlended`].
+pub(crate) fn is_material_ready(world: &World, entity: EntityRef) -> Result<bool, CoatingFault> {
+    // Its film has just gone; it gets its own material back within the frame.
+    if entity.contains::<CoatedMaterial>() {
+        return Ok(false);
+    }
+    let Some(MeshMaterial3d(handle)) = entity.get::<MeshMaterial3d<StandardMaterial>>() else { return Ok(true) };
+    if !world.contains_resource::<Assets<StandardMaterial>>() {
+        return Ok(true);
+    }
+    let fault = CoatingFault::MaterialNotLoaded;
+    let Some(material) = crate::api::assets::loaded(world, handle, fault)? else { return Ok(false) };
+    match material.alpha_mode {
+        AlphaMode::Opaque | AlphaMode::Mask(_) | AlphaMode::AlphaToCoverage => Ok(true),
+        _ => Err(CoatingFault::AlphaBlended),
+    }
+}
+
+/// How the prop's own materials show their sides.
+struct Sides {
+    cull_mode: Option<Face>,
+    double_sided: bool,
+    /// Side that is not shown where only one is.
+    hidden: Face,
+}
+
+impl Sides {
+    /// Those of the first primitive with a standard material; two-sided if any is. `None` without a material: then
+    /// nothing is drawn of the prop, either.
+    fn of(
+        slots: &[Entity],
+        props: &Query<PropParts<'static>>,
+        materials: &Assets<StandardMaterial>,
+        space: PartSpace,
+    ) -> Option<Self> {
+        let mut sides: Option<Self> = None;
+        for &slot in slots {
+            let Ok((plain, coated, ..)) = props.get(slot) else { continue };
+            let own = plain.map(|own| &own.0).or(coated.map(|own| &own.0));
+            let Some(material) = own.and_then(|own| materials.get(own)) else { continue };
+            let other_side = if space.is_mirrored() { Face::Front } else { Face::Back };
+            let this = Self {
+                cull_mode: material.cull_mode,
+                double_sided: material.double_sided,
+                hidden: material.cull_mode.unwrap_or(other_side),
+            };
+            if sides.as_ref().is_none_or(|sides| sides.cull_mode.is_some() && this.cull_mode.is_none()) {
+                sides = Some(this);
+            }
+        }
+        sides
+    }
+}
+
+/// What the children take over from the prop.
+type PropParts<'a> = (
+    Option<&'a MeshMaterial3d<StandardMaterial>>,
+    Option<&'a CoatedMaterial>,
+    Option<&'a RenderLayers>,
+    Option<&'a NotShadowCaster>,
+    Option<&'a NotShadowReceiver>,
+);
+
+/// Writes the backs and the metal of the films that changed, and spawns them when there are some for the first time.
+pub(super) fn write_parts(
+    mut films: Query<(Entity, &FilmSource, &GlobalTransform, &mut FilmDisplay)>,
+    mut assets: PartAssets,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::MeshGeneration, || {
+        for (film, source, transform, mut display) in &mut films {
+            let display = display.bypass_change_detection();
+            let Some(change) = display.pending_parts.take() else { continue };
+            let mut parts = std::mem::take(&mut display.parts);
+            let home = Home { film, transform, source };
+            assets.show(display, StainPart::Back, &mut parts.backs, change, &home);
+            assets.show(display, StainPart::Metal, &mut parts.metal, change, &home);
+            display.parts = parts;
+        }
+    });
+}
+
+/// Where a part is spawned.
+struct Home<'a> {
+    film: Entity,
+    transform: &'a GlobalTransform,
+    source: &'a FilmSource,
+}
+
+/// What parts are written to.
+#[derive(SystemParam)]
+pub(super) struct PartAssets<'w, 's> {
+    commands: Commands<'w, 's>,
+    props: Query<'w, 's, PropParts<'static>>,
+    meshes: ResMut<'w, Assets<Mesh>>,
+    plain: ResMut<'w, Assets<StandardMaterial>>,
+    stained: Option<ResMut<'w, Assets<StainedMaterial>>>,
+}
+
+impl PartAssets<'_, '_> {
+    /// Brings one part up to date.
+    fn show(
+        &mut self,
+        display: &FilmDisplay,
+        kind: StainPart,
+        part: &mut Option<PartHandle>,
+        change: ShownChange,
+        home: &Home,
+    ) {
+        let shown = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
+        let paint = &display.paint;
+        let by_material = paint.display == StainDisplay::Material && self.stained.is_some();
+        let carrier = if by_material { StainCarrier::Attributes } else { StainCarrier::Colors };
+        let stains = StainWriter { part: kind, paint, carrier, edge: display.edge };
+        // Stains are shown another way: with another mesh layout and another type of material, on another entity.
+        if let Some(old) = part.take_if(|old| matches!(old.material, PartMaterial::Stained(_)) != by_material) {
+            self.commands.entity(old.entity).try_despawn();
+        }
+        if let Some(part) = part {
+            self.write(part, shown, stains, change, display.space);
+        } else if !shown.is_empty()
+            && let Some(sides) = Sides::of(&home.source.slots, &self.props, &self.plain, display.space)
+        {
+            let mut mesh = new_mesh();
+            write_part(&mut mesh, shown, SlotAttributes::default(), display.space, stains);
+            let mesh = self.meshes.add(mesh);
+            let base = if kind == StainPart::Back { primer(paint, &sides) } else { bare_metal(paint, &sides) };
+            let material = self.add_material(base, kind, paint, by_material);
+            let entity = self.spawn(kind, &mesh, &material, home);
+            *part = Some(PartHandle { entity, mesh, material });
+        }
+    }
+
+    fn write(
+        &mut self,
+        part: &PartHandle,
+        shown: &MeshPart,
+        stains: StainWriter,
+        change: ShownChange,
+        space: PartSpace,
+    ) {
+        let moves = stains.part == StainPart::Back;
+        let whole = change.exposure || (change.topology && moves);
+        if !(whole || change.stains || moves) {
+            return;
+        }
+        let Some(mut mesh) = self.meshes.get_mut(&part.mesh) else { return };
+        if whole {
+            write_part(&mut mesh, shown, SlotAttributes::default(), space, stains);
+            return;
+        }
+        if moves {
+            move_part(&mut mesh, shown, space);
+        }
+        if change.stains {
+            write_stains(&mut mesh, shown, stains);
+        }
+    }
+
+    fn add_material(
+        &mut self,
+        base: StandardMaterial,
+        part: StainPart,
+        paint: &FilmPaint,
+        by_material: bool,
+    ) -> PartMaterial {
+        match &mut self.stained {
+            Some(stained) if by_material => {
+                let (shading, pattern) = (paint.shading.clone(), paint.pattern);
+                let extension = StainExtension { part, shading, pattern, view: StainView::Lit };
+                PartMaterial::Stained(stained.add(StainedMaterial { base, extension }))
+            }
+            _ => PartMaterial::Plain(self.plain.add(StandardMaterial { base_color: Color::WHITE, ..base })),
+        }
+    }
+
+    fn spawn(&mut self, kind: StainPart, mesh: &Handle<Mesh>, material: &PartMaterial, home: &Home) -> Entity {
+        let name = if kind == StainPart::Back { "paint backs" } else { "bare metal" };
+        let place = (Transform::IDENTITY, *home.transform, Visibility::Inherited, ChildOf(home.film));
+        let mut part = self.commands.spawn((CoatingPart, Name::new(name), Mesh3d(mesh.clone()), place));
+        match material {
+            PartMaterial::Stained(handle) => part.insert(MeshMaterial3d(handle.clone())),
+            PartMaterial::Plain(handle) => part.insert(MeshMaterial3d(handle.clone())),
+        };
+        let slot = home.source.slots.first();
+        if let Some((.., layers, no_shadow, unshadowed)) = slot.and_then(|&slot| self.props.get(slot).ok()) {
+            layers.map(|layers| part.insert(layers.clone()));
+            no_shadow.map(|_| part.insert(NotShadowCaster));
+            unshadowed.map(|_| part.insert(NotShadowReceiver));
+        }
+        part.id()
+    }
+}
+
+/// The back of the paint. Its triangles are wound against the prop's, so one side is enough.
+fn primer(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
+    let shading = paint.shading.primer.surface();
+    StandardMaterial {
+        base_color: Color::LinearRgba(LinearRgba::from_vec3(shading.base_color)),
+        perceptual_roughness: shading.roughness,
+        reflectance: shading.reflectance,
+        cull_mode: Some(sides.hidden),
+        ..StandardMaterial::default()
+    }
+}
+
+/// Bare metal, shown from the sides from which the prop is. How it looks comes from its stains; where only their
+/// colours can be shown, it is half steel and half rust.
+fn bare_metal(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
+    StandardMaterial {
+        base_color: Color::WHITE,
+        metallic: 0.5 * paint.shading.metal.metallic,
+        perceptual_roughness: 0.5 * (paint.shading.metal.roughness + paint.shading.stains.rust_roughness),
+        cull_mode: sides.cull_mode,
+        double_sided: sides.double_sided,
+        ..StandardMaterial::default()
+    }
+}

@@ -1,0 +1,245 @@
+//! From meshes to the [`Surface`] of a prop.
+
+use bevy::{
+    math::{Vec2, Vec3, Vec4},
+    mesh::{Indices, Mesh, MeshAccessError, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues},
+};
+
+use crate::{
+    api::error::CoatingFault,
+    surface::{BuildError, Surface},
+};
+
+/// Corner attributes that a primitive has of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SlotAttributes {
+    pub normals: bool,
+    pub uvs: bool,
+    pub uvs_1: bool,
+    pub tangents: bool,
+    pub colors: bool,
+}
+
+/// One primitive, converted: what goes into the surface, as far as the mesh has it. Three entries a triangle.
+struct Corners {
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    uvs_1: Vec<Vec2>,
+    tangents: Vec<Vec4>,
+    colors: Vec<Vec4>,
+}
+
+/// Joins the primitives of one prop into its surface, scaled by `scale`; gives the attributes of each primitive
+/// too. Where only some have an attribute the others get a neutral value.
+///
+/// A mirroring scale turns the winding of the triangles, so that they are counter-clockwise from outside again.
+///
+/// # Errors
+/// [`CoatingFault`] for meshes that are no triangles, cannot be read, or refer to vertices that do not exist.
+pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<SlotAttributes>), CoatingFault> {
+    let mut surface = Surface::default();
+    let mut slots = Vec::with_capacity(meshes.len());
+    let mirrored = scale.x * scale.y * scale.z < 0.0;
+    for (slot, mesh) in meshes.iter().enumerate() {
+        let positions = positions_of(mesh)?;
+        let first_vertex = surface.positions.len() as u32;
+        let first_triangle = surface.triangles.len();
+        let mut corners = corners_of(mesh, positions.len())?;
+        corners.scale(scale);
+        if mirrored {
+            corners.turn();
+        }
+        // Values of an attribute that earlier primitives lack, and that this one lacks.
+        let before = first_triangle * 3;
+        let here = corners.triangles.len() * 3;
+        surface.positions.extend(positions.iter().map(|&p| Vec3::from_array(p) * scale));
+        surface.triangles.extend(corners.triangles.iter().map(|t| t.map(|v| v + first_vertex)));
+        surface.slots.resize(surface.triangles.len(), slot as u32);
+        slots.push(SlotAttributes {
+            normals: append(&mut surface.normals, corners.normals, before, here, Vec3::ZERO),
+            uvs: append(&mut surface.uvs, corners.uvs, before, here, Vec2::ZERO),
+            uvs_1: append(&mut surface.uvs_1, corners.uvs_1, before, here, Vec2::ZERO),
+            tangents: append(&mut surface.tangents, corners.tangents, before, here, Vec4::W),
+            colors: append(&mut surface.colors, corners.colors, before, here, Vec4::ONE),
+        });
+    }
+    Ok((surface, slots))
+}
+
+/// Positions and triangles of a mesh, for what needs no more.
+///
+/// # Errors
+/// [`CoatingFault`] for meshes that are no triangles or cannot be read.
+pub(crate) fn shape_of(mesh: &Mesh) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), CoatingFault> {
+    let positions = positions_of(mesh)?;
+    Ok((positions.to_vec(), triangles_of(mesh, positions.len())?))
+}
+
+/// Appends `values` to `all`, or `here` times `neutral` if there are none but other primitives have some; gives
+/// whether there are some.
+fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize, neutral: T) -> bool {
+    let present = !values.is_empty();
+    if present {
+        all.resize(before, neutral);
+        all.extend(values);
+    } else if !all.is_empty() {
+        all.resize(before + here, neutral);
+    }
+    present
+}
+
+impl Corners {
+    /// Turns directions as `scale` turns them. An even scale leaves them as they are, to the bit.
+    fn scale(&mut self, scale: Vec3) {
+        if scale.x == scale.y && scale.y == scale.z && scale.x > 0.0 {
+            return;
+        }
+        for normal in &mut self.normals {
+            *normal = (*normal / scale).normalize_or_zero();
+        }
+        for tangent in &mut self.tangents {
+            *tangent = (tangent.truncate() * scale).normalize_or_zero().extend(tangent.w);
+        }
+    }
+
+    /// Turns the winding of every triangle.
+    fn turn(&mut self) {
+        fn swap<T>(values: &mut [T]) {
+            for corners in values.chunks_exact_mut(3) {
+                corners.swap(1, 2);
+            }
+        }
+        self.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        swap(&mut self.normals);
+        swap(&mut self.uvs);
+        swap(&mut self.uvs_1);
+        swap(&mut self.tangents);
+        swap(&mut self.colors);
+    }
+}
+
+fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], CoatingFault> {
+    match mesh.try_attribute(Mesh::ATTRIBUTE_POSITION) {
+        Ok(VertexAttributeValues::Float32x3(positions)) => Ok(positions),
+        Ok(other) => Err(format_fault("positions", other, "Float32x3")),
+        Err(MeshAccessError::NotFound) => Err(CoatingFault::NoPositions),
+        Err(MeshAccessError::ExtractedToRenderWorld) => Err(CoatingFault::RenderWorldOnly),
+    }
+}
+
+fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
+    let triangles = triangles_of(mesh, vertices)?;
+    for (i, triangle) in triangles.iter().enumerate() {
+        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices) {
+            return Err(BuildError::IndexOutOfRange { triangle: i as u32, vertex, vertices }.into());
+        }
+    }
+    let spread = |attribute, name, expected, components| {
+        let values = floats_of(mesh, attribute, name, expected, components)?;
+        if !values.is_empty() && values.len() != vertices {
+            let found = values.len();
+            return Err(CoatingFault::from(BuildError::AttributeLength { attribute: name, found, expected: vertices }));
+        }
+        // The indices have been checked against the number of vertices, which is that of the values.
+        Ok(if values.is_empty() {
+            Vec::new()
+        } else {
+            triangles.iter().flatten().map(|&v| values[v as usize]).collect::<Vec<Vec4>>()
+        })
+    };
+    let normals = spread(Mesh::ATTRIBUTE_NORMAL, "normals", "three floats or normalised integers", 3)?;
+    let uvs = spread(Mesh::ATTRIBUTE_UV_0, "texture coordinates", "two floats or normalised integers", 2)?;
+    let uvs_1 = spread(Mesh::ATTRIBUTE_UV_1, "second texture coordinates", "two floats or normalised integers", 2)?;
+    let tangents = spread(Mesh::ATTRIBUTE_TANGENT, "tangents", "four floats or normalised integers", 4)?;
+    let colors = spread(Mesh::ATTRIBUTE_COLOR, "vertex colours", "three or four floats or normalised integers", 3)?;
+    Ok(Corners {
+        normals: normals.iter().map(|v| v.truncate()).collect(),
+        uvs: uvs.iter().map(|v| Vec2::new(v.x, v.y)).collect(),
+        uvs_1: uvs_1.iter().map(|v| Vec2::new(v.x, v.y)).collect(),
+        tangents,
+        colors,
+        triangles,
+    })
+}
+
+/// The triangles of a list or strip, with indices or without. What is left over of a list is passed over, as it is
+/// when drawn.
+fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFault> {
+    let indices = match mesh.try_indices_option() {
+        Ok(Some(Indices::U32(indices))) => indices.iter().map(|&i| (i != u32::MAX).then_some(i)).collect(),
+        Ok(Some(Indices::U16(indices))) => indices.iter().map(|&i| (i != u16::MAX).then_some(u32::from(i))).collect(),
+        Ok(None) => (0..vertices as u32).map(Some).collect::<Vec<_>>(),
+        Err(_) => return Err(CoatingFault::RenderWorldOnly),
+    };
+    match mesh.primitive_topology() {
+        // The highest index means nothing in a list: there it is out of range like any other.
+        PrimitiveTopology::TriangleList => {
+            Ok(indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|i| i.unwrap_or(u32::MAX))).collect())
+        }
+        PrimitiveTopology::TriangleStrip => Ok(strip_triangles(&indices)),
+        other => Err(CoatingFault::NotTriangles(other)),
+    }
+}
+
+/// Triangles of a strip, every second one turned; `None` begins a new strip.
+fn strip_triangles(indices: &[Option<u32>]) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(indices.len());
+    for strip in indices.split(Option::is_none) {
+        for (i, window) in strip.windows(3).enumerate() {
+            if let [Some(a), Some(b), Some(c)] = *window {
+                triangles.push(if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
+            }
+        }
+    }
+    triangles
+}
+
+/// An attribute as floats, with 0, 0, 0, 1 for components it does not have; empty if the mesh does not have it.
+fn floats_of(
+    mesh: &Mesh,
+    attribute: MeshVertexAttribute,
+    name: &'static str,
+    expected: &'static str,
+    components: usize,
+) -> Result<Vec<Vec4>, CoatingFault> {
+    use VertexAttributeValues as V;
+    let values = match mesh.try_attribute_option(attribute) {
+        Ok(Some(values)) => values,
+        Ok(None) => return Ok(Vec::new()),
+        Err(_) => return Err(CoatingFault::RenderWorldOnly),
+    };
+    let (found, floats) = match values {
+        V::Float32x2(v) => (2, v.iter().map(|&[x, y]| Vec4::new(x, y, 0.0, 1.0)).collect()),
+        V::Float32x3(v) => (3, v.iter().map(|&[x, y, z]| Vec4::new(x, y, z, 1.0)).collect()),
+        V::Float32x4(v) => (4, v.iter().map(|&v| Vec4::from_array(v)).collect()),
+        V::Float16x2(v) => (2, pairs(v, |x| x.to_f32())),
+        V::Float16x4(v) => (4, quads(v, |x| x.to_f32())),
+        V::Unorm8x2(v) => (2, pairs(v, |x| f32::from(x) / 255.0)),
+        V::Unorm8x4(v) => (4, quads(v, |x| f32::from(x) / 255.0)),
+        V::Unorm16x2(v) => (2, pairs(v, |x| f32::from(x) / 65535.0)),
+        V::Unorm16x4(v) => (4, quads(v, |x| f32::from(x) / 65535.0)),
+        V::Snorm8x2(v) => (2, pairs(v, |x| (f32::from(x) / 127.0).max(-1.0))),
+        V::Snorm8x4(v) => (4, quads(v, |x| (f32::from(x) / 127.0).max(-1.0))),
+        V::Snorm16x2(v) => (2, pairs(v, |x| (f32::from(x) / 32767.0).max(-1.0))),
+        V::Snorm16x4(v) => (4, quads(v, |x| (f32::from(x) / 32767.0).max(-1.0))),
+        other => return Err(format_fault(name, other, expected)),
+    };
+    if found < components {
+        return Err(format_fault(name, values, expected));
+    }
+    Ok(floats)
+}
+
+fn pairs<T: Copy>(values: &[[T; 2]], float: impl Fn(T) -> f32) -> Vec<Vec4> {
+    values.iter().map(|&[x, y]| Vec4::new(float(x), float(y), 0.0, 1.0)).collect()
+}
+
+fn quads<T: Copy>(values: &[[T; 4]], float: impl Fn(T) -> f32) -> Vec<Vec4> {
+    values.iter().map(|&v| Vec4::from_array(v.map(&float))).collect()
+}
+
+fn format_fault(attribute: &'static str, found: &VertexAttributeValues, expected: &'static str) -> CoatingFault {
+    let found = format!("{:?}", bevy::mesh::VertexFormat::from(found));
+    CoatingFault::Format { attribute, found, expected }
+}

@@ -1,0 +1,234 @@
+//! Edge collapses.
+
+use bevy_math::Vec3;
+
+use super::project::{distance_to_triangle, project};
+use super::work_mesh::{Place, WorkMesh};
+use crate::film::{HalfEdgeId, VertexId};
+
+/// What a collapse must respect.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CollapseLimits {
+    /// Edges shorter than this are collapsed.
+    pub shortest: f32,
+    /// No edge may grow longer than this.
+    pub longest: f32,
+    /// How far a feature edge may stray from its line.
+    pub deviation: f32,
+    /// How far the middle of an edge may be from the surface.
+    pub stray: f32,
+    /// Faces may get as bad as this, or as the worst was before.
+    pub quality: f32,
+    /// Stop at this many faces.
+    pub fewest_faces: usize,
+}
+
+/// Collapses short edges, the shortest first.
+pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) {
+    let mut short: Vec<(f32, HalfEdgeId)> =
+        mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(length, _)| length < limits.shortest).collect();
+    short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, h) in short {
+        if mesh.topology.live_faces() <= limits.fewest_faces {
+            return;
+        }
+        if mesh.topology.is_live(h.face()) && mesh.length(h) < limits.shortest {
+            try_collapse(mesh, h, limits);
+        }
+    }
+}
+
+/// Where the two ends of an edge may meet.
+type Meeting = (Vec3, Place);
+
+/// Collapses the edge if topology, features, size and shape allow it.
+pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseLimits) -> bool {
+    let meetings = meetings(mesh, h);
+    if meetings[0].is_none() || !keeps_topology(mesh, h) {
+        return false;
+    }
+    for (position, place) in meetings.into_iter().flatten() {
+        if keeps_features(mesh, h, place, limits)
+            && keeps_shape(mesh, h, position, limits)
+            && keeps_close(mesh, h, position, place, limits)
+        {
+            let kept = collapse(mesh, h);
+            mesh.positions[kept.index()] = position;
+            mesh.places[kept.index()] = place;
+            return true;
+        }
+    }
+    false
+}
+
+/// The places to try, best first. It is always the target's id that stays; whose place it takes is all that
+/// matters.
+fn meetings(mesh: &WorkMesh, h: HalfEdgeId) -> [Option<Meeting>; 3] {
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    let at = |v: VertexId| Some((mesh.position(v), mesh.place(v)));
+    let chain = mesh.chain(h);
+    match (mesh.place(a), mesh.place(b)) {
+        (Place::Free(start), Place::Free(_)) => {
+            let foot = project(mesh.reference, mesh.position(a).midpoint(mesh.position(b)), start);
+            [Some((foot.position, Place::Free(foot.triangle))), at(a), at(b)]
+        }
+        (Place::Free(_), _) => [at(b), None, None],
+        (_, Place::Free(_)) => [at(a), None, None],
+        (Place::Line { chain: c, s: from }, Place::Line { chain: d, s: to }) if c == d && chain == Some(c) => {
+            let s = 0.5 * (from + to);
+            let position = mesh.reference.chains.position(mesh.reference.positions, c, s);
+            [Some((position, Place::Line { chain: c, s })), at(a), at(b)]
+        }
+        (Place::Line { chain: c, .. }, Place::Fixed(_)) if chain == Some(c) => [at(b), None, None],
+        (Place::Fixed(_), Place::Line { chain: c, .. }) if chain == Some(c) => [at(a), None, None],
+        _ => [None; 3],
+    }
+}
+
+/// The link condition and its kin: the collapse changes neither Euler number nor border loops.
+fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
+    let topology = &mesh.topology;
+    let (a, b) = (topology.origin(h), topology.target(h));
+    let twin = topology.twin(h);
+    if twin.is_some() && topology.is_border(a) && topology.is_border(b) {
+        return false;
+    }
+    let wings = [Some(topology.opposite(h)), twin.map(|t| topology.opposite(t))];
+    if topology.neighbours(a).any(|v| topology.neighbours(b).any(|w| v == w) && !wings.contains(&Some(v))) {
+        return false;
+    }
+    // A wing keeps at least three faces inside, one at a border.
+    let keeps_faces = |v: VertexId| {
+        let least = if topology.is_border(v) { 2 } else { 4 };
+        topology.ring(v).nth(least - 1).is_some()
+    };
+    // A face whose other two edges are both open would leave a loose edge behind.
+    let ear = |h: HalfEdgeId| topology.twin(h.next()).is_none() && topology.twin(h.previous()).is_none();
+    wings.into_iter().flatten().all(keeps_faces) && !ear(h) && !twin.is_some_and(ear)
+}
+
+/// Feature lines stay lines: none merge, and none strays from its course.
+fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, place: Place, limits: CollapseLimits) -> bool {
+    for e in [Some(h), mesh.topology.twin(h)].into_iter().flatten() {
+        // The two other edges of a vanishing face become one.
+        if mesh.chain(e.next()).is_some() && mesh.chain(e.previous()).is_some() {
+            return false;
+        }
+    }
+    let Some(chain) = mesh.chain(h) else { return true };
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    let meeting = match place {
+        Place::Line { s, .. } => s,
+        Place::Fixed(v) => mesh.reference.chains.end(chain, v),
+        Place::Free(_) => return false,
+    };
+    [(a, b), (b, a)].into_iter().all(|(v, other)| match mesh.place(v) {
+        Place::Line { .. } => chain_neighbours(mesh, v, chain)
+            .filter(|&n| n != other)
+            .all(|n| mesh.reference.strays(chain, meeting, mesh.arc_length(n, chain)) <= limits.deviation),
+        _ => true,
+    })
+}
+
+/// The vertices before and after `v` on a chain.
+pub(super) fn chain_neighbours<'m>(mesh: &'m WorkMesh, v: VertexId, chain: u32) -> impl Iterator<Item = VertexId> + 'm {
+    let topology = &mesh.topology;
+    let leaving = topology.ring(v).filter(move |&h| mesh.chain(h) == Some(chain)).map(|h| topology.target(h));
+    let arriving = topology
+        .ring(v)
+        .map(HalfEdgeId::previous)
+        .filter(move |&h| topology.twin(h).is_none() && mesh.chain(h) == Some(chain))
+        .map(|h| topology.origin(h));
+    leaving.chain(arriving)
+}
+
+/// No face folds over, no edge grows too long, no face gets too thin.
+fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseLimits) -> bool {
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    let longest = limits.longest.max(mesh.length(h));
+    let too_long = |v: VertexId, other: VertexId| {
+        mesh.position(v) != position
+            && mesh.topology.neighbours(v).any(|n| n != other && mesh.position(n).distance(position) > longest)
+    };
+    if too_long(a, b) || too_long(b, a) {
+        return false;
+    }
+    let gone = [Some(h.face()), mesh.topology.twin(h).map(HalfEdgeId::face)];
+    let mut least = f32::MAX;
+    for v in [a, b] {
+        match mesh.quality_at(v, position, gone) {
+            Some(quality) => least = least.min(quality),
+            None => return false,
+        }
+    }
+    least >= limits.quality || least >= mesh.quality(a).min(mesh.quality(b))
+}
+
+/// No edge at the merged vertex cuts through a bend of the surface, and neither end is left far behind: it may have
+/// been the tip of a bump.
+fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, limits: CollapseLimits) -> bool {
+    let gone = [Some(h.face()), mesh.topology.twin(h).map(HalfEdgeId::face)];
+    let near = |p: Vec3| {
+        [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
+            mesh.topology.ring(v).filter(|e| !gone.contains(&Some(e.face()))).any(|e| {
+                let far = [mesh.topology.target(e), mesh.topology.opposite(e)].map(|v| mesh.position(v));
+                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray
+            })
+        })
+    };
+    if !near(mesh.position(mesh.topology.origin(h))) || !near(mesh.position(mesh.topology.target(h))) {
+        return false;
+    }
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    [(a, b), (b, a)].into_iter().all(|(v, other)| {
+        mesh.position(v) == position
+            || mesh.topology.ring(v).all(|e| {
+                let n = mesh.topology.target(e);
+                if n == other || mesh.chain(e).is_some() {
+                    return true;
+                }
+                let start = match (place, mesh.place(n)) {
+                    (Place::Free(f), _) | (_, Place::Free(f)) => f,
+                    _ => mesh.corner(e).triangle,
+                };
+                let middle = position.midpoint(mesh.position(n));
+                mesh.stray_at(middle, start) <= limits.stray.max(mesh.stray(e))
+            })
+    })
+}
+
+/// Merges the origin of `h` into its target, which is returned. The one or two faces at the edge and the origin
+/// die; all other ids stay.
+fn collapse(mesh: &mut WorkMesh, h: HalfEdgeId) -> VertexId {
+    let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
+    let twin = mesh.topology.twin(h);
+    let leaving: Vec<HalfEdgeId> = mesh.topology.ring(a).collect();
+    let mut anchors = vec![];
+    for e in leaving {
+        mesh.topology.set_origin(e, b);
+    }
+    for e in [Some(h), twin].into_iter().flatten() {
+        let wing = mesh.topology.opposite(e);
+        let (n, p) = (e.next(), e.previous());
+        let (outer_n, outer_p) = (mesh.topology.twin(n), mesh.topology.twin(p));
+        let chain = mesh.chain(n).or(mesh.chain(p));
+        for (outer, other) in [(outer_n, outer_p), (outer_p, outer_n)] {
+            if let Some(outer) = outer {
+                mesh.topology.link_or_open(outer, other);
+                mesh.set_chain(outer, chain);
+                let at_wing = if mesh.topology.origin(outer) == wing { outer } else { outer.next() };
+                let at_kept = if mesh.topology.origin(outer) == wing { outer.next() } else { outer };
+                anchors.push((wing, at_wing));
+                anchors.push((b, at_kept));
+            }
+        }
+    }
+    for e in [Some(h), twin].into_iter().flatten() {
+        mesh.topology.remove_face(e.face());
+    }
+    mesh.topology.remove_vertex(a);
+    for (v, h) in anchors {
+        mesh.topology.anchor(v, h);
+    }
+    b
+}

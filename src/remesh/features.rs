@@ -1,0 +1,156 @@
+//! Which edges of the prop's surface the film must follow.
+//!
+//! Always: borders, creases, UV seams, hard normals, colour borders, slot borders, borders of turned winding. Where
+//! the prop's own triangles are large against the film's, also every edge that is not flat or across which an
+//! attribute bends: there the fresh film must look exactly like the prop, down to its facets. On dense scans such
+//! edges are only sampling, and the film runs across them.
+
+use bevy_math::Vec3;
+
+use super::attributes::Attributes;
+use super::noise;
+use super::topology::Topology;
+use crate::{
+    film::{FaceId, HalfEdgeId},
+    surface::{CleanSurface, Surface},
+};
+
+/// Cosine of the crease angle, 30 degrees.
+pub(super) const CREASE: f32 = 0.866;
+/// Cosine of the angle up to which two triangles count as coplanar, 1.5 degrees.
+const FLAT: f32 = 0.999_66;
+/// A prop of so few triangles is followed exactly everywhere, whatever the film's number.
+const LOW_POLY: f32 = 500.0;
+/// So is one whose triangles number less than this share of the film's.
+const LOW_POLY_SHARE: f32 = 0.3;
+/// Elsewhere an edge is followed if its triangles stand at least so many target edges high over it.
+const LOW_POLY_HEIGHT: f32 = 1.5;
+/// A sharp edge at a face with a side longer than so many target edges is no noise.
+const NOISE_FACE: f32 = 1.2;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Free,
+    /// A sharp edge between faces smaller than the film's: a crease, unless it is a scan's noise.
+    Doubtful,
+    /// A crease, border or seam: kept, as a polyline that may be resampled.
+    Line,
+    /// An edge of a low-poly prop: kept with both its ends.
+    Exact,
+}
+
+/// The feature edges of the clean mesh.
+pub(super) struct Features {
+    kinds: Vec<Kind>,
+}
+
+impl Features {
+    /// Classifies the edges for a film of edge length `target` and about `triangles` faces.
+    pub fn find(
+        surface: &Surface,
+        clean: &CleanSurface,
+        topology: &Topology,
+        normals: &[Vec3],
+        target: f32,
+        triangles: f32,
+    ) -> Self {
+        let attributes = Attributes::new(surface, clean);
+        let positions = &clean.positions;
+        let low_poly = clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
+        let slot = |f: FaceId| {
+            clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
+        };
+        let flipped = |f: FaceId| clean.flipped.get(f.index()).copied().unwrap_or_default();
+        let height = |h: HalfEdgeId| {
+            let [a, b, c] =
+                [topology.origin(h), topology.target(h), topology.opposite(h)].map(|v| positions[v.index()]);
+            (b - a).cross(c - a).length() / (b - a).length().max(f32::MIN_POSITIVE)
+        };
+        let is_small = |f: FaceId| {
+            f.half_edges().into_iter().all(|h| {
+                let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);
+                a.distance(b) < NOISE_FACE * target
+            })
+        };
+        let mut kinds = vec![Kind::Free; 3 * topology.face_slots()];
+        for h in topology.edges() {
+            let Some(t) = topology.twin(h) else {
+                let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target;
+                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
+                continue;
+            };
+            let (f, g) = (h.face(), t.face());
+            let cosine = normals[f.index()].dot(normals[g.index()]);
+            let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target;
+            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t, exact);
+            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t, target);
+            let kind = if exact && (seam || uneven()) {
+                Kind::Exact
+            } else if seam {
+                Kind::Line
+            } else if cosine < CREASE {
+                if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
+            } else {
+                Kind::Free
+            };
+            kinds[h.index()] = kind;
+            kinds[t.index()] = kind;
+        }
+        let mut features = Self { kinds };
+        noise::drop_noise(&mut features, topology, positions, target);
+        features
+    }
+
+    #[inline]
+    pub fn is_kept(&self, h: HalfEdgeId) -> bool {
+        self.kinds[h.index()] != Kind::Free
+    }
+
+    /// Vertices that must stay where they are because an exact edge ends there.
+    pub fn rigid_vertices(&self, topology: &Topology) -> Vec<bool> {
+        let mut rigid = vec![false; topology.vertex_slots()];
+        for h in topology.edges().filter(|h| self.kinds[h.index()] == Kind::Exact) {
+            rigid[topology.origin(h).index()] = true;
+            rigid[topology.target(h).index()] = true;
+        }
+        rigid
+    }
+
+    /// The patch of every face: regions bounded by features, numbered by their lowest face.
+    pub fn patches(&self, topology: &Topology) -> Vec<u32> {
+        let mut patches = vec![u32::MAX; topology.face_slots()];
+        let mut count = 0;
+        let mut open = Vec::new();
+        for seed in topology.faces() {
+            if patches[seed.index()] != u32::MAX {
+                continue;
+            }
+            patches[seed.index()] = count;
+            open.push(seed);
+            while let Some(f) = open.pop() {
+                for h in f.half_edges().into_iter().filter(|&h| !self.is_kept(h)) {
+                    if let Some(t) = topology.twin(h)
+                        && patches[t.face().index()] == u32::MAX
+                    {
+                        patches[t.face().index()] = count;
+                        open.push(t.face());
+                    }
+                }
+            }
+            count += 1;
+        }
+        patches
+    }
+
+    pub(super) fn is_doubtful(&self, h: HalfEdgeId) -> bool {
+        self.kinds[h.index()] == Kind::Doubtful
+    }
+
+    /// The film need not follow the edge after all.
+    pub(super) fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
+        self.kinds[h.index()] = Kind::Free;
+        if let Some(t) = topology.twin(h) {
+            self.kinds[t.index()] = Kind::Free;
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Edge flips towards Delaunay: the diagonal of two triangles is turned if that raises their least angle.
+
+use bevy_math::Vec3;
+
+use super::work_mesh::{FOLD, WorkMesh, quality};
+use crate::film::HalfEdgeId;
+
+/// Flips until nothing is gained. Features are never flipped.
+pub(super) fn flip_edges(mesh: &mut WorkMesh) {
+    let mut queue: Vec<HalfEdgeId> = mesh.topology.edges().collect();
+    // Every flip raises a least angle, so the work ends by itself; rounding may still turn a pair for ever.
+    let mut budget = 10 * queue.len();
+    while let Some(h) = queue.pop() {
+        if budget == 0 {
+            return;
+        }
+        budget -= 1;
+        if flip_if(mesh, h, is_better_delaunay)
+            && let Some(t) = mesh.topology.twin(h)
+        {
+            queue.extend([h.next(), h.previous(), t.next(), t.previous()]);
+        }
+    }
+}
+
+/// [`flip_if`], but not to cut through a bend of the surface: the edge may be as far from it as before or as `limit`.
+pub(super) fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32, wanted: fn([Vec3; 4]) -> bool) -> bool {
+    let before = mesh.stray(h);
+    if !flip_if(mesh, h, wanted) {
+        return false;
+    }
+    if mesh.stray(h) <= before.max(limit) {
+        return true;
+    }
+    // A second turn brings the edge back, though the other way round.
+    flip(mesh, h);
+    false
+}
+
+/// Flips the edge between the faces (a, b, c) and (b, a, d) if `wanted`, given those four points, says so and
+/// neither features, topology nor a fold of the surface forbid it. Whether it was flipped.
+fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) -> bool {
+    let Some(t) = mesh.topology.twin(h) else { return false };
+    if mesh.chain(h).is_some() {
+        return false;
+    }
+    let topology = &mesh.topology;
+    let corners = [topology.origin(h), topology.target(h), topology.opposite(h), topology.opposite(t)];
+    let points = corners.map(|v| mesh.position(v));
+    if !wanted(points) {
+        return false;
+    }
+    let [a, b, c, d] = points;
+    let (f, g) = (mesh.area_vector(h.face()), mesh.area_vector(t.face()));
+    let mean = (f + g).normalize_or_zero();
+    let upright = |n: Vec3| n.dot(mean) > FOLD * n.length();
+    if !upright((a - d).cross(c - d)) || !upright((b - c).cross(d - c)) {
+        return false;
+    }
+    if topology.edge_between(corners[2], corners[3]).is_some() {
+        return false;
+    }
+    flip(mesh, h);
+    true
+}
+
+/// Whether the two angles over the edge sum to more than 180 degrees, and turning it raises the lower quality of
+/// the two faces (which on a bent pair the angles do not promise).
+fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
+    let (u, v) = (a - c, b - c);
+    let (x, y) = (b - d, a - d);
+    // sin(alpha + beta) < 0.
+    let sum = u.cross(v).length() * x.dot(y) + u.dot(v) * x.cross(y).length();
+    let scale = u.length() * v.length() * x.length() * y.length();
+    if sum >= -1e-4 * scale {
+        return false;
+    }
+    let before = quality(a, b, c).min(quality(b, a, d));
+    let after = quality(c, d, b).min(quality(d, c, a));
+    after > before
+}
+
+/// Turns the edge a-b between (a, b, c) and (b, a, d) into d-c. Face ids stay.
+fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
+    let Some(t) = mesh.topology.twin(h) else { return };
+    let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)];
+    let [c, d] = [mesh.topology.opposite(h), mesh.topology.opposite(t)];
+    let outer = [h.next(), h.previous(), t.next(), t.previous()].map(|e| (mesh.topology.twin(e), mesh.chain(e)));
+    let [bc, ca, ad, db] = outer;
+    let sides = [
+        (h.next(), c, ca), // c to a
+        (h.previous(), a, ad),
+        (t.next(), d, db),
+        (t.previous(), b, bc),
+    ];
+    mesh.topology.set_origin(h, d);
+    mesh.topology.set_origin(t, c);
+    for (e, origin, (twin, chain)) in sides {
+        mesh.topology.set_origin(e, origin);
+        mesh.topology.link_or_open(e, twin);
+        mesh.set_chain(e, chain);
+    }
+    mesh.topology.anchor(a, h.previous());
+    mesh.topology.anchor(b, t.previous());
+    mesh.topology.anchor(c, h.next());
+    mesh.topology.anchor(d, t.next());
+}

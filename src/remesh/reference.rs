@@ -1,0 +1,57 @@
+//! The clean surface that the film is pulled back to, with its features.
+
+use bevy_math::Vec3;
+
+use super::chains::{Chains, NO_CHAIN};
+use super::features::Features;
+use super::topology::Topology;
+use crate::{
+    film::HalfEdgeId,
+    surface::{CleanSurface, Surface},
+};
+
+pub(super) struct Reference<'a> {
+    pub topology: Topology,
+    pub positions: &'a [Vec3],
+    /// Corner positions of each triangle: projection looks at little else.
+    pub triangles: Vec<[Vec3; 3]>,
+    /// The chain that each half-edge lies on, or [`NO_CHAIN`].
+    pub chain_of: Vec<u32>,
+    pub chains: Chains,
+    /// Vertices that the film keeps in place.
+    pub fixed: Vec<bool>,
+    /// The patch of each triangle.
+    pub patches: Vec<u32>,
+}
+
+impl<'a> Reference<'a> {
+    /// Prepares the surface for a film of edge length `target` and about `triangles` faces.
+    pub fn new(surface: &Surface, clean: &'a CleanSurface, target: f32, triangles: f32) -> Self {
+        let positions = &clean.positions;
+        let topology = Topology::new(&clean.triangles, positions.len());
+        let normals: Vec<Vec3> = topology
+            .faces()
+            .map(|f| {
+                let [a, b, c] = topology.corners(f).map(|v| positions[v.index()]);
+                (b - a).cross(c - a).normalize_or_zero()
+            })
+            .collect();
+        let features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        let mut fixed = features.rigid_vertices(&topology);
+        let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
+        let patches = features.patches(&topology);
+        let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
+        Self { topology, positions, triangles, chain_of, chains, fixed, patches }
+    }
+
+    /// Whether the film must follow this edge.
+    #[inline]
+    pub fn is_feature(&self, h: HalfEdgeId) -> bool {
+        self.chain_of[h.index()] != NO_CHAIN
+    }
+
+    /// How far a chain strays from the chord between two arc lengths.
+    pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
+        self.chains.deviation(self.positions, chain, from, to)
+    }
+}

@@ -1,0 +1,118 @@
+//! Tangential relaxation: vertices move towards the middle of their neighbours, along their line or over their
+//! patch, and are put back on the surface.
+
+use bevy_math::Vec3;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::collapse::chain_neighbours;
+use super::project::project;
+use super::work_mesh::{Place, WorkMesh};
+use crate::film::VertexId;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Relaxation {
+    /// Share of the way to the middle.
+    pub step: f32,
+    /// Length of the random displacement added to it.
+    pub jitter: f32,
+    /// How far a feature edge may stray from its line.
+    pub deviation: f32,
+    /// How far the middle of an edge may be from the surface.
+    pub stray: f32,
+    /// Moves that leave no face worse than this are accepted; others must not make the worst face worse.
+    pub quality: f32,
+}
+
+/// Moves every vertex once, in index order.
+pub(super) fn relax(mesh: &mut WorkMesh, settings: Relaxation, rng: &mut ChaCha8Rng) {
+    for v in (0..mesh.topology.vertex_slots()).map(VertexId::new) {
+        if mesh.topology.outgoing(v).is_none() {
+            continue;
+        }
+        match mesh.place(v) {
+            Place::Fixed(_) => {}
+            Place::Line { chain, s } => relax_on_line(mesh, v, chain, s, settings, rng),
+            Place::Free(_) => relax_on_patch(mesh, v, settings, rng),
+        }
+    }
+}
+
+fn relax_on_line(mesh: &mut WorkMesh, v: VertexId, chain: u32, s: f32, settings: Relaxation, rng: &mut ChaCha8Rng) {
+    let mut ends = chain_neighbours(mesh, v, chain).map(|n| mesh.arc_length(n, chain));
+    let (Some(a), Some(b), None) = (ends.next(), ends.next(), ends.next()) else { return };
+    drop(ends);
+    let (low, high) = (a.min(b), a.max(b));
+    let middle = 0.5 * (low + high);
+    let jitter = settings.jitter * (2.0 * rng.random::<f32>() - 1.0);
+    let margin = 0.2 * (high - low);
+    let wanted = (s + settings.step * (middle - s) + jitter).clamp(low + margin, high - margin);
+    let reference = mesh.reference;
+    for step in [1.0, 0.5, 0.25] {
+        let moved = s + step * (wanted - s);
+        let strays =
+            |end: f32| reference.strays(chain, moved, end) > settings.deviation.max(reference.strays(chain, s, end));
+        if strays(a) || strays(b) {
+            continue;
+        }
+        let position = reference.chains.position(reference.positions, chain, moved);
+        if accept(mesh, v, position, Place::Line { chain, s: moved }, settings) {
+            return;
+        }
+    }
+}
+
+fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &mut ChaCha8Rng) {
+    let Place::Free(start) = mesh.place(v) else { return };
+    let here = mesh.position(v);
+    let (mut middle, mut weight, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
+    for f in mesh.topology.faces_around(v) {
+        let area_vector = mesh.area_vector(f);
+        let area = area_vector.length();
+        let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
+        // The two far corners only: with the near one the centroid would drag its feet.
+        middle += (a + b + c - here) * (0.5 * area);
+        weight += area;
+        normal += area_vector;
+    }
+    let normal = normal.normalize_or_zero();
+    if weight <= 0.0 || normal == Vec3::ZERO {
+        return;
+    }
+    let jitter = Vec3::new(rng.random(), rng.random(), rng.random()) * 2.0 - Vec3::ONE;
+    let wanted = (middle / weight - here) * settings.step + jitter * settings.jitter;
+    let wanted = wanted - normal * normal.dot(wanted);
+    for step in [1.0, 0.5, 0.25] {
+        let foot = project(mesh.reference, here + wanted * step, start);
+        if accept(mesh, v, foot.position, Place::Free(foot.triangle), settings) {
+            return;
+        }
+    }
+}
+
+/// Moves the vertex unless a face folds, the worst face gets worse, or an edge comes to cut through a bend of the
+/// surface.
+fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settings: Relaxation) -> bool {
+    let fits = mesh
+        .quality_at(v, position, [None, None])
+        .is_some_and(|quality| quality >= settings.quality || quality >= mesh.quality(v));
+    if !fits {
+        return false;
+    }
+    let was_bent = mesh.is_bent(v);
+    let mut other = (position, place);
+    mesh.exchange(v, &mut other);
+    if !was_bent && !mesh.is_bent(v) {
+        return true;
+    }
+    let strays = mesh.stray_around(v);
+    if strays <= settings.stray {
+        return true;
+    }
+    mesh.exchange(v, &mut other);
+    if strays > mesh.stray_around(v) {
+        return false;
+    }
+    mesh.exchange(v, &mut other);
+    true
+}

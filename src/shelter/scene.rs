@@ -1,0 +1,209 @@
+//! Which meshes shelter props, and their triangles.
+
+use std::sync::Arc;
+
+use bevy::{
+    asset::{AssetEvent, AssetId, AssetServer, Assets, LoadState},
+    ecs::{
+        entity::Entity,
+        hierarchy::Children,
+        message::MessageReader,
+        query::{With, Without},
+        resource::Resource,
+        system::{Query, Res, ResMut},
+    },
+    log::warn,
+    math::{Affine3A, Vec3},
+    mesh::{Mesh, Mesh3d, skinning::SkinnedMesh},
+    platform::collections::{HashMap, HashSet, hash_map::Entry},
+    tasks::{AsyncComputeTaskPool, Task, futures::check_ready},
+    transform::components::GlobalTransform,
+};
+
+use super::CastOrder;
+use crate::{
+    api::{
+        coating::Coating,
+        error::CoatingFault,
+        links::{CoatingPart, FilmSlot},
+        shelter::{RainShelter, Shelter},
+        weather::CoatingWeather,
+    },
+    mesh_reader::shape_of,
+    stain::{
+        Environment,
+        exposure::{Blocker, TriangleTree},
+    },
+};
+/// What shelters props, as it stood when there was last rain or sun.
+#[derive(Resource, Default)]
+pub(crate) struct ShelterScene {
+    /// By entity and root.
+    pieces: Vec<Piece>,
+    /// Triangles of the pieces' meshes.
+    meshes: HashMap<AssetId<Mesh>, ShelterMesh>,
+    /// Counts changes of the pieces.
+    revision: u64,
+    /// Counts meshes that were read.
+    version: u64,
+    /// Whether all meshes are known.
+    ready: bool,
+}
+
+/// One mesh in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    entity: Entity,
+    /// The only coating whose films it shelters; all of them if `None`.
+    root: Option<Entity>,
+    mesh: AssetId<Mesh>,
+    /// Version of the mesh; 0 while it is being loaded.
+    version: u64,
+    place: Affine3A,
+}
+
+struct ShelterMesh {
+    version: u64,
+    tree: Tree,
+}
+
+enum Tree {
+    Growing(Task<TriangleTree>),
+    Grown(Arc<TriangleTree>),
+    /// It cannot be read.
+    Missing,
+}
+
+/// Looks at what shelters props, while there is rain or sun.
+pub(crate) fn survey(
+    weather: Res<CoatingWeather>,
+    mut scene: ResMut<ShelterScene>,
+    mut edited: MessageReader<AssetEvent<Mesh>>,
+    assets: Res<Assets<Mesh>>,
+    server: Option<Res<AssetServer>>,
+    shelters: Query<Entity, With<RainShelter>>,
+    coatings: Query<(Entity, &Coating)>,
+    children: Query<&Children>,
+    meshes: Query<(&Mesh3d, &GlobalTransform, Option<&FilmSlot>), (Without<CoatingPart>, Without<SkinnedMesh>)>,
+) {
+    for event in edited.read() {
+        if let AssetEvent::Added { id } | AssetEvent::Modified { id } | AssetEvent::Removed { id } = event {
+            scene.meshes.remove(id);
+        }
+    }
+    if !weather.reaches_anything() {
+        return;
+    }
+    let mut found = Vec::with_capacity(scene.pieces.len());
+    let piece_of = |entity: Entity, root: Option<Entity>| {
+        let (mesh, transform, slot) = meshes.get(entity).ok()?;
+        // A coated mesh shelters as it was before it was coated.
+        let mesh = slot.map_or(&mesh.0, |slot| &slot.original).id();
+        Some((slot.map(|slot| slot.film), Piece { entity, root, mesh, version: 0, place: transform.affine() }))
+    };
+    let below = |root: Entity| std::iter::once(root).chain(children.iter_descendants(root));
+    for root in &shelters {
+        found.extend(below(root).filter_map(|entity| Some(piece_of(entity, None)?.1)));
+    }
+    for (root, _) in coatings.iter().filter(|(_, coating)| coating.shelter == Shelter::Scene) {
+        let own: Vec<_> = below(root).filter_map(|entity| piece_of(entity, Some(root))).collect();
+        // A film knows its own surface; there must be another.
+        if own.iter().any(|(film, _)| film.is_none() || *film != own[0].0) && own.len() > 1 {
+            found.extend(own.into_iter().map(|(_, piece)| piece));
+        }
+    }
+    found.sort_unstable_by_key(|piece| (piece.entity, piece.root));
+    // Those for all come first.
+    found.dedup_by(|later, first| later.entity == first.entity && (first.root.is_none() || first.root == later.root));
+    scene.follow(found, &assets, server.as_deref());
+}
+
+impl ShelterScene {
+    /// Takes over the pieces that were found, and reads meshes that are new.
+    fn follow(&mut self, mut found: Vec<Piece>, assets: &Assets<Mesh>, server: Option<&AssetServer>) {
+        self.ready = true;
+        for piece in &mut found {
+            let mesh = match self.meshes.entry(piece.mesh) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let Some(tree) = begin_tree(piece, assets, server) else {
+                        self.ready = false;
+                        continue;
+                    };
+                    self.version += 1;
+                    new.insert(ShelterMesh { version: self.version, tree })
+                }
+            };
+            piece.version = mesh.version;
+            if let Tree::Growing(task) = &mut mesh.tree {
+                match check_ready(task) {
+                    Some(tree) => mesh.tree = Tree::Grown(Arc::new(tree)),
+                    None => self.ready = false,
+                }
+            }
+        }
+        if found != self.pieces {
+            self.pieces = found;
+            self.revision += 1;
+            let used: HashSet<_> = self.pieces.iter().map(|piece| piece.mesh).collect();
+            self.meshes.retain(|id, _| used.contains(id));
+        }
+    }
+
+    /// Counts what may have changed.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// What may shelter a film that is coated by `root`, made of `slots` and stands at `transform`; `None` while meshes
+    /// are being loaded or read.
+    pub fn order(
+        &self,
+        environment: &Environment,
+        transform: &GlobalTransform,
+        root: Entity,
+        slots: &[Entity],
+    ) -> Option<CastOrder> {
+        if !self.ready {
+            return None;
+        }
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        let place = Affine3A::from_rotation_translation(rotation, translation);
+        let mut order = CastOrder::new(environment);
+        for piece in &self.pieces {
+            let others = piece.root.is_some_and(|only| only != root);
+            let Some(ShelterMesh { version, tree: Tree::Grown(tree) }) = self.meshes.get(&piece.mesh) else { continue };
+            if !others && !slots.contains(&piece.entity) {
+                let into = piece.place.inverse() * place;
+                order.push(piece.entity, *version, Blocker { tree: tree.clone(), into });
+            }
+        }
+        Some(order)
+    }
+}
+
+/// Begins to sort the triangles of a piece's mesh; `None` while it is being loaded. A mesh that nobody loads is missing
+/// until it is added.
+fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>) -> Option<Tree> {
+    let Some(mesh) = assets.get(piece.mesh) else {
+        let state = server.map(|server| server.load_state(piece.mesh));
+        if state.as_ref().is_some_and(LoadState::is_failed) {
+            tell(piece, &CoatingFault::MeshNotLoaded);
+        }
+        return (!state.is_some_and(|state| state.is_loading())).then_some(Tree::Missing);
+    };
+    match shape_of(mesh) {
+        Ok((positions, triangles)) => Some(Tree::Growing(AsyncComputeTaskPool::get().spawn(async move {
+            let corner = |v: u32| positions.get(v as usize).map_or(Vec3::NAN, |&p| Vec3::from_array(p));
+            TriangleTree::new(triangles.iter().map(|t| t.map(corner)))
+        }))),
+        Err(fault) => {
+            tell(piece, &fault);
+            Some(Tree::Missing)
+        }
+    }
+}
+
+fn tell(piece: &Piece, fault: &CoatingFault) {
+    warn!("entity {} shelters nothing from rain and sun: {fault}", piece.entity);
+}

@@ -1,0 +1,91 @@
+//! The end of a step: what happened becomes messages, and display learns that something changed.
+
+use bevy::{
+    ecs::{
+        entity::Entity,
+        message::MessageWriter,
+        system::{Query, ResMut},
+    },
+    math::Vec3,
+    transform::components::GlobalTransform,
+};
+
+use crate::{
+    api::{
+        diagnostics::CoatingTimings,
+        film_pace::FilmPace,
+        links::FilmSource,
+        messages::{FirstCrack, PieceFallen},
+        revision::FilmRevision,
+    },
+    film::{FilmChanges, FilmMesh},
+    sim::{FilmClock, Stage},
+    stain::StainFields,
+};
+/// Reports the first crack and fallen pieces of the due films, and counts up their revisions.
+pub(super) fn report(
+    mut films: Query<(
+        Entity,
+        &mut FilmPace,
+        &FilmMesh,
+        &FilmClock,
+        &FilmChanges,
+        &StainFields,
+        &FilmSource,
+        &GlobalTransform,
+        &mut FilmRevision,
+    )>,
+    mut cracks: MessageWriter<FirstCrack>,
+    mut pieces: MessageWriter<PieceFallen>,
+    mut timings: ResMut<CoatingTimings>,
+) {
+    timings.measure(Stage::Other, || {
+        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut revision) in &mut films {
+            if !pace.due {
+                continue;
+            }
+            let world = FilmToWorld { transform, scale: source.scale };
+            if let (false, Some(&edge)) = (pace.cracked, changes.torn.first()) {
+                pace.cracked = true;
+                let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
+                let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
+                cracks.write(FirstCrack { entity, age: clock.age(), position: world.point((a + b) / 2.0) });
+            }
+            for debris in &changes.debris {
+                pieces.write(PieceFallen {
+                    entity,
+                    position: world.point(debris.position),
+                    normal: world.direction(debris.normal),
+                    size: debris.area.sqrt(),
+                    faces: debris.faces,
+                });
+            }
+            let topology = !(changes.torn.is_empty() && changes.removed.is_empty());
+            let exposure = !(changes.separated.is_empty() && changes.removed.is_empty());
+            let stained = stains.revision != revision.stains;
+            if topology || exposure || changes.moved || stained {
+                revision.positions = revision.positions.wrapping_add(u32::from(changes.moved));
+                revision.topology = revision.topology.wrapping_add(u32::from(topology));
+                revision.exposure = revision.exposure.wrapping_add(u32::from(exposure));
+                revision.stains = stains.revision;
+            }
+        }
+    });
+}
+
+/// From a film's space, which has the world scale applied, to the world.
+struct FilmToWorld<'a> {
+    transform: &'a GlobalTransform,
+    scale: Vec3,
+}
+
+impl FilmToWorld<'_> {
+    fn point(&self, p: Vec3) -> Vec3 {
+        self.transform.transform_point(p / self.scale)
+    }
+
+    fn direction(&self, d: Vec3) -> Vec3 {
+        // Normals turn with the film, which is rotated but not scaled.
+        self.transform.rotation() * d
+    }
+}

@@ -1,0 +1,45 @@
+//! The step schedule: one run is one step of every film that is due.
+
+use bevy::{
+    app::App,
+    ecs::schedule::{IntoScheduleConfigs, Schedule, SingleThreadedExecutor},
+};
+
+use super::{report, systems};
+use crate::api::system_sets::{CoatingStep, CoatingSystems};
+
+pub(crate) fn add_step_schedule(app: &mut App) {
+    let mut schedule = Schedule::new(CoatingStep);
+    // The stages follow each other and are parallel inside: a second thread would only be waited for.
+    schedule.set_executor(SingleThreadedExecutor::new());
+    app.add_schedule(schedule);
+    app.configure_sets(
+        CoatingStep,
+        (
+            CoatingSystems::Forces,
+            CoatingSystems::Separate,
+            CoatingSystems::Tear,
+            CoatingSystems::Strip,
+            CoatingSystems::Bend,
+            CoatingSystems::Rust,
+            CoatingSystems::Dust,
+            CoatingSystems::Moisture,
+            CoatingSystems::Report,
+        )
+            .chain(),
+    );
+    app.add_systems(
+        CoatingStep,
+        (
+            (systems::begin, systems::age_forces).chain().in_set(CoatingSystems::Forces),
+            systems::separate.in_set(CoatingSystems::Separate),
+            systems::tear.in_set(CoatingSystems::Tear),
+            systems::strip.in_set(CoatingSystems::Strip),
+            (systems::link, systems::bend).chain().in_set(CoatingSystems::Bend),
+            systems::rust.in_set(CoatingSystems::Rust),
+            systems::dust.in_set(CoatingSystems::Dust),
+            systems::moisture.in_set(CoatingSystems::Moisture),
+            report::report.in_set(CoatingSystems::Report),
+        ),
+    );
+}

@@ -1,0 +1,136 @@
+//! Welding: one vertex where the prop has several at (almost) the same place.
+
+use std::collections::HashMap;
+
+use bevy_math::{DVec3, Vec3};
+
+use super::NONE;
+use crate::surface::Surface;
+
+/// Vertices nearer than this part of the bounding box's diagonal are one...
+const TOLERANCE: f64 = 1e-5;
+/// ...unless that is more than this part of the shortest edge at either of them.
+const EDGE_FRACTION: f64 = 0.1;
+
+pub(super) struct Welded {
+    /// Of each welded vertex, the position of its lowest surface vertex.
+    pub positions: Vec<Vec3>,
+    /// Welded vertex of each surface vertex; [`NONE`] where no triangle uses it.
+    pub vertex_of: Vec<u32>,
+    /// The tolerance, in the surface's unit.
+    pub tolerance: f64,
+}
+
+pub(super) fn weld(surface: &Surface) -> Welded {
+    let first = merge_equal(surface);
+    let shortest = shortest_edges(surface, &first);
+
+    let firsts = || (0..first.len()).filter(|&v| first[v] == v as u32);
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for v in firsts() {
+        let p = surface.positions[v].as_dvec3();
+        (low, high) = (low.min(p), high.max(p));
+    }
+    let tolerance = TOLERANCE * (high - low).length();
+
+    let mut grid = Grid::new(low, tolerance, surface.positions.len());
+    let mut welded = Welded { positions: Vec::new(), vertex_of: vec![NONE; first.len()], tolerance };
+    for v in firsts() {
+        let p = surface.positions[v].as_dvec3();
+        let reach = |w: usize| tolerance.min(EDGE_FRACTION * shortest[v].min(shortest[w]));
+        // A vertex joins only vertices that have not joined another, so chains of near vertices do not drift.
+        let mut nearest: Option<(f64, usize)> = None;
+        grid.for_near(p, |w| {
+            let distance = surface.positions[w].as_dvec3().distance(p);
+            if distance <= reach(w) && nearest.is_none_or(|best| (distance, w) < best) {
+                nearest = Some((distance, w));
+            }
+        });
+        welded.vertex_of[v] = match nearest {
+            Some((_, w)) => welded.vertex_of[w],
+            None => {
+                grid.insert(p, v);
+                welded.positions.push(surface.positions[v]);
+                welded.positions.len() as u32 - 1
+            }
+        };
+    }
+    for (v, &first) in first.iter().enumerate() {
+        if first != NONE {
+            welded.vertex_of[v] = welded.vertex_of[first as usize];
+        }
+    }
+    welded
+}
+
+/// The lowest used vertex at exactly the same place; [`NONE`] for unused vertices.
+fn merge_equal(surface: &Surface) -> Vec<u32> {
+    let mut first = vec![NONE; surface.positions.len()];
+    for &v in surface.triangles.iter().flatten() {
+        first[v as usize] = v;
+    }
+    // Adding zero makes both zeros equal.
+    let bits = |v: u32| (surface.positions[v as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
+    let mut order: Vec<_> = first.iter().filter(|v| **v != NONE).map(|&v| (bits(v), v)).collect();
+    order.sort_unstable();
+    for run in order.chunk_by(|a, b| a.0 == b.0) {
+        for &(_, v) in run {
+            first[v as usize] = run[0].1;
+        }
+    }
+    first
+}
+
+/// Length of the shortest edge, other than zero, at each vertex.
+fn shortest_edges(surface: &Surface, first: &[u32]) -> Vec<f64> {
+    let mut shortest = vec![f64::INFINITY; first.len()];
+    for &[a, b, c] in &surface.triangles {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            let (a, b) = (first[a as usize] as usize, first[b as usize] as usize);
+            if a != b {
+                let length = surface.positions[a].as_dvec3().distance(surface.positions[b].as_dvec3());
+                shortest[a] = shortest[a].min(length);
+                shortest[b] = shortest[b].min(length);
+            }
+        }
+    }
+    shortest
+}
+
+/// A sparse grid of cells twice the tolerance wide: whatever is within the tolerance of a point lies in the
+/// eight cells around the cell corner nearest to it.
+struct Grid {
+    low: DVec3,
+    cell: f64,
+    /// Last vertex of each cell. Only ever looked up, so its order cannot matter.
+    head: HashMap<[i32; 3], u32>,
+    /// The vertex before it in the same cell.
+    next: Vec<u32>,
+}
+
+impl Grid {
+    fn new(low: DVec3, tolerance: f64, vertices: usize) -> Self {
+        // With all vertices at one place there is one cell, whatever its size.
+        let cell = if tolerance > 0.0 { 2.0 * tolerance } else { 1.0 };
+        Self { low, cell, head: HashMap::new(), next: vec![NONE; vertices] }
+    }
+
+    fn insert(&mut self, p: DVec3, vertex: usize) {
+        let cell = ((p - self.low) / self.cell).floor().as_ivec3().to_array();
+        if let Some(before) = self.head.insert(cell, vertex as u32) {
+            self.next[vertex] = before;
+        }
+    }
+
+    fn for_near(&self, p: DVec3, mut visit: impl FnMut(usize)) {
+        let corner = ((p - self.low) / self.cell).round().as_ivec3();
+        for i in 0..8 {
+            let cell = [corner.x - (i & 1), corner.y - (i >> 1 & 1), corner.z - (i >> 2 & 1)];
+            let mut v = self.head.get(&cell).copied().unwrap_or(NONE);
+            while v != NONE {
+                visit(v as usize);
+                v = self.next[v as usize];
+            }
+        }
+    }
+}
