@@ -31,7 +31,7 @@ fn coated(props: usize) -> App {
     let mut app = common::app();
     let mesh = common::add_mesh(&mut app, common::plate(SQUARES));
     for seed in 0..props as u64 {
-        let coating = Coating::preset("default").expect("a preset").with_resolution(FilmResolution::Keep);
+        let coating = Coating::new(Preset::Default).with_resolution(FilmResolution::Keep);
         let coating = coating.with_seed(seed).with_start_age(START_AGE);
         app.world_mut().spawn((Mesh3d(mesh.clone()), coating));
     }

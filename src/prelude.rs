@@ -21,7 +21,7 @@ pub use crate::{
     appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
     deform::SolverQuality,
     remesh::FilmResolution,
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::FilmClock,
     surface::BuildWarning,
 };

@@ -67,7 +67,7 @@ fn a_fresh_prop_looks_like_the_uncoated_one() {
         let meshes = |app: &mut App| app.world_mut().query::<&Mesh3d>().iter(app.world()).count();
         update_until(&mut studio.app, |app| meshes(app) == prop.films && assets_loaded(app));
         let before = prop.eyes.map(|eye| studio.shoot(eye, prop.target));
-        let coating = Coating::preset("heavy").expect("a preset").with_seed(3);
+        let coating = Coating::new(Preset::Heavy).with_seed(3);
         studio.app.world_mut().entity_mut(root).insert(coating);
         let films = prop.films;
         update_until(&mut studio.app, |app| app.world().resource::<CoatingStatus>().films == films);

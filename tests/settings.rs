@@ -15,7 +15,7 @@ use bevy::{
 };
 use bevy_coating::{
     CoatingSettingsPlugin,
-    settings::{CoatingSettings, PRESETS},
+    settings::{CoatingSettings, Preset},
 };
 
 /// An app whose assets are the files put into the returned folder.
@@ -65,17 +65,17 @@ fn refusal(app: &App, handle: &Handle<CoatingSettings>) -> Option<String> {
 #[test]
 fn presets_load_as_assets() {
     let (mut app, folder) = app();
-    let handles: Vec<_> = PRESETS
+    let handles: Vec<_> = Preset::ALL
         .into_iter()
-        .map(|(name, text)| {
-            let file = format!("presets/{name}.coating.ron");
-            folder.insert_asset_text(Path::new(&file), text);
-            (name, app.world().resource::<AssetServer>().load(file))
+        .map(|preset| {
+            let file = format!("presets/{preset}.coating.ron");
+            folder.insert_asset_text(Path::new(&file), preset.ron());
+            (preset, app.world().resource::<AssetServer>().load(file))
         })
         .collect();
-    for (name, handle) in handles {
-        update_until(&mut app, name, |app| settings(app, &handle).is_some());
-        assert_eq!(settings(&app, &handle), Some(&CoatingSettings::preset(name).unwrap()));
+    for (preset, handle) in handles {
+        update_until(&mut app, preset.name(), |app| settings(app, &handle).is_some());
+        assert_eq!(settings(&app, &handle), Some(&CoatingSettings::from(preset)));
     }
 }
 

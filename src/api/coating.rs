@@ -11,7 +11,7 @@ use crate::{
     appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
     deform::SolverQuality,
     remesh::FilmResolution,
-    settings::{CoatingSettings, SettingsError},
+    settings::{CoatingSettings, Preset, SettingsError},
     sim::DEFAULT_STEPS_PER_AGE,
 };
 /// Triangles of a film when nothing else is set.
@@ -79,7 +79,8 @@ impl Coating {
         Self { settings: settings.into(), ..Self::default() }
     }
 
-    /// A coating with the settings of a [preset](crate::settings::PRESETS).
+    /// Returns a coating with the settings of the [preset](Preset) of this name. Where the name is known when the code is
+    /// written, `Coating::new(Preset::Heavy)` leaves no room for a typo.
     ///
     /// # Errors
     /// [`SettingsError`] that lists the presets there are.
@@ -192,6 +193,12 @@ impl Default for SettingsSource {
 impl From<CoatingSettings> for SettingsSource {
     fn from(settings: CoatingSettings) -> Self {
         Self::Inline(settings)
+    }
+}
+
+impl From<Preset> for SettingsSource {
+    fn from(preset: Preset) -> Self {
+        Self::Inline(preset.into())
     }
 }
 

@@ -6,7 +6,7 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::topology::Topology;
-use super::{BuiltFilm, FilmResolution, build, clean};
+use super::{BuiltFilm, FilmResolution, build_film, clean};
 use crate::{
     film::{FaceId, VertexId},
     surface::{BuildError, BuildWarning, Surface},
@@ -64,7 +64,7 @@ fn at_corner<T: Copy + std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T
 
 /// Builds and checks what must hold for any surface and resolution.
 fn checked(surface: &Surface, resolution: FilmResolution, seed: u64) -> BuiltFilm {
-    let film = build(surface, resolution, seed).expect("a film");
+    let film = build_film(surface, resolution, seed).expect("a film");
     let cleaned = clean(surface).expect("a clean surface");
     let faces = film.triangles.len();
     assert_eq!((film.slots.len(), film.flipped.len(), film.sites.len()), (faces, faces, 3 * faces));
@@ -274,7 +274,7 @@ fn flat_quads_show_no_grid() {
 #[test]
 fn the_same_seed_gives_the_same_bits() {
     let surface = bevelled_box(Vec3::new(1.0, 0.7, 0.5), 0.1, 2);
-    let build = |seed| build(&surface, FilmResolution::Triangles(1000), seed).expect("a film");
+    let build = |seed| build_film(&surface, FilmResolution::Triangles(1000), seed).expect("a film");
     let (a, b, other) = (build(4), build(4), build(5));
     let bits =
         |film: &BuiltFilm| film.positions.iter().flat_map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
@@ -323,9 +323,9 @@ fn senseless_resolutions_are_refused() {
         FilmResolution::EdgeLength(f32::INFINITY),
     ];
     for resolution in bad {
-        assert!(matches!(build(&surface, resolution, 0), Err(BuildError::Resolution { .. })), "{resolution:?}");
+        assert!(matches!(build_film(&surface, resolution, 0), Err(BuildError::Resolution { .. })), "{resolution:?}");
     }
-    let tiny = build(&surface, FilmResolution::EdgeLength(1e-9), 0);
+    let tiny = build_film(&surface, FilmResolution::EdgeLength(1e-9), 0);
     assert!(matches!(tiny, Err(BuildError::TooLarge { .. })), "{tiny:?}");
 }
 

@@ -5,9 +5,9 @@
 //! of the README all follow from there.
 //!
 //! ```
-//! use bevy_coating::settings::CoatingSettings;
+//! use bevy_coating::settings::{CoatingSettings, Preset};
 //!
-//! let mut settings = CoatingSettings::preset("heavy")?;
+//! let mut settings = CoatingSettings::from(Preset::Heavy);
 //! settings.tearing.alpha = 0.6;
 //! settings.set("adhesion.decay", "1.1")?;
 //! settings.validate()?;
@@ -29,7 +29,7 @@ mod tests;
 
 pub use error::{Place, SettingsError, SettingsErrorKind};
 pub use field::{Field, Range};
-pub use presets::PRESETS;
+pub use presets::Preset;
 pub use stages::{
     AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
     StrippingSettings, TearingSettings,

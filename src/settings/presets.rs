@@ -1,29 +1,89 @@
 //! The presets that come with the crate.
 
+use std::{fmt, str::FromStr};
+
 use super::{CoatingSettings, SettingsError, SettingsErrorKind};
 
-/// Name and RON text of every preset. The texts are the files of `assets/presets`, built into the crate.
+/// Settings that come with the crate. Each is a file of `assets/presets` that is built into it.
 ///
-/// - `default`: the settings' defaults: long branching cracks, flakes curled outward along them.
-/// - `few_cracks`: paint that peels more than it cracks (VC fig. 12a).
-/// - `gentle`: paint that has been cared for: fewer separated places, little curl.
-/// - `heavy`: long neglect: most of the paint separated, cracked and curled.
-pub const PRESETS: [(&str, &str); 4] = [
-    ("default", include_str!("../../assets/presets/default.coating.ron")),
-    ("few_cracks", include_str!("../../assets/presets/few_cracks.coating.ron")),
-    ("gentle", include_str!("../../assets/presets/gentle.coating.ron")),
-    ("heavy", include_str!("../../assets/presets/heavy.coating.ron")),
-];
+/// ```
+/// use bevy_coating::settings::{CoatingSettings, Preset};
+///
+/// let settings = CoatingSettings::from(Preset::Heavy);
+/// assert_eq!("heavy".parse(), Ok(Preset::Heavy));
+/// assert!(settings.adhesion.mean < CoatingSettings::default().adhesion.mean);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Preset {
+    /// The defaults of [`CoatingSettings`]: long branching cracks, flakes curled outward along them.
+    #[default]
+    Default,
+    /// Paint that peels more than it cracks (VC fig. 12a).
+    FewCracks,
+    /// Paint that has been cared for: fewer separated places, little curl.
+    Gentle,
+    /// Long neglect: most of the paint separated, cracked and curled.
+    Heavy,
+}
+
+impl Preset {
+    /// Every preset, in the order of their names.
+    pub const ALL: [Self; 4] = [Self::Default, Self::FewCracks, Self::Gentle, Self::Heavy];
+
+    /// Returns the name by which files, programs and [`FromStr`] know the preset.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::FewCracks => "few_cracks",
+            Self::Gentle => "gentle",
+            Self::Heavy => "heavy",
+        }
+    }
+
+    /// Returns the RON text of the preset.
+    pub const fn ron(self) -> &'static str {
+        match self {
+            Self::Default => include_str!("../../assets/presets/default.coating.ron"),
+            Self::FewCracks => include_str!("../../assets/presets/few_cracks.coating.ron"),
+            Self::Gentle => include_str!("../../assets/presets/gentle.coating.ron"),
+            Self::Heavy => include_str!("../../assets/presets/heavy.coating.ron"),
+        }
+    }
+}
+
+impl fmt::Display for Preset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Preset {
+    type Err = SettingsError;
+
+    /// Finds the preset of a [name](Preset::name).
+    ///
+    /// # Errors
+    /// [`SettingsErrorKind::UnknownPreset`], which lists the presets there are.
+    fn from_str(name: &str) -> Result<Self, SettingsError> {
+        let known = || Self::ALL.map(Self::name).into();
+        let found = Self::ALL.into_iter().find(|preset| preset.name() == name);
+        found.ok_or_else(|| SettingsErrorKind::UnknownPreset { name: name.into(), known: known() }.into())
+    }
+}
+
+impl From<Preset> for CoatingSettings {
+    fn from(preset: Preset) -> Self {
+        // A test reads every text, so none falls back to the defaults.
+        Self::from_ron(preset.ron(), preset.name()).unwrap_or_default()
+    }
+}
 
 impl CoatingSettings {
-    /// The settings of one of the [`PRESETS`].
+    /// Returns the settings of the preset of this name.
     ///
     /// # Errors
     /// [`SettingsErrorKind::UnknownPreset`], which lists the presets there are.
     pub fn preset(name: &str) -> Result<Self, SettingsError> {
-        let (_, text) = PRESETS.iter().find(|(known, _)| *known == name).ok_or_else(|| {
-            SettingsErrorKind::UnknownPreset { name: name.into(), known: PRESETS.map(|(known, _)| known).into() }
-        })?;
-        Self::from_ron(text, &format!("{name}.coating.ron"))
+        name.parse::<Preset>().map(Self::from)
     }
 }

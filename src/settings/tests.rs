@@ -205,8 +205,11 @@ fn settings_survive_every_kind_of_format() {
 
 #[test]
 fn every_preset_is_valid_and_round_trips() {
-    for (name, _) in PRESETS {
-        let settings = CoatingSettings::preset(name).unwrap();
+    for preset in Preset::ALL {
+        let name = preset.name();
+        let settings = CoatingSettings::from_ron(preset.ron(), name).unwrap();
+        assert_eq!(CoatingSettings::from(preset), settings);
+        assert_eq!(name.parse(), Ok(preset));
         settings.validate().unwrap();
         let text = ron::to_string(&settings).unwrap();
         assert_eq!(CoatingSettings::from_ron(&text, name).unwrap(), settings);
@@ -262,7 +265,7 @@ fn every_preset_file_is_built_in() {
     let mut files: Vec<_> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     files.sort();
-    assert_eq!(files, PRESETS.map(|(name, _)| format!("{name}.coating.ron")));
+    assert_eq!(files, Preset::ALL.map(|preset| format!("{preset}.coating.ron")));
 }
 
 #[test]
@@ -273,7 +276,7 @@ fn the_readme_lists_every_setting() {
         let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);
         assert!(row.starts_with(&expected), "{row}\nshould start with\n{expected}");
     }
-    for (name, _) in PRESETS {
+    for name in Preset::ALL.map(Preset::name) {
         assert!(readme.contains(&format!("| `{name}` | ")), "{name}");
     }
 }

@@ -77,7 +77,7 @@ pub fn spawn_plate(app: &mut App, n: u32, coating: Coating) -> Entity {
 
 /// A coating that uses the mesh as it is, and ages fast: 100 steps per age.
 pub fn quick_coating() -> Coating {
-    Coating::preset("heavy").expect("a preset").with_resolution(FilmResolution::Keep).with_steps_per_age(100)
+    Coating::new(Preset::Heavy).with_resolution(FilmResolution::Keep).with_steps_per_age(100)
 }
 
 /// Updates until `done`, waiting for background builds.

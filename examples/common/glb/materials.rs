@@ -53,9 +53,9 @@ impl<'a> Materials<'a> {
     pub fn of(&mut self, primitive: &Primitive, sheets: &[usize]) -> Option<usize> {
         match (primitive.cover, primitive.base) {
             (Cover::Plain, Base::Own(material)) => material,
-            (Cover::Plain, Base::Primer) => {
-                Some(*self.primer.get_or_insert_with(|| push(&mut self.materials, plain("primer", &PrimerShading::default().surface(), false))))
-            }
+            (Cover::Plain, Base::Primer) => Some(*self.primer.get_or_insert_with(|| {
+                push(&mut self.materials, plain("primer", &PrimerShading::default().surface(), false))
+            })),
             (Cover::Plain, Base::Metal) => {
                 Some(*self.metal.get_or_insert_with(|| push(&mut self.materials, plain("rusted metal", &METAL, true))))
             }
