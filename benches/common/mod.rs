@@ -7,7 +7,7 @@ use std::{
 };
 
 use bevy_coating::{
-    deform::{FilmConstraints, follow_fracture},
+    deform::{FilmConstraints, update_constraints},
     film::{FilmChanges, FilmMesh, VertexId},
     remesh::sample::{self, TestPiece},
 };
@@ -38,6 +38,6 @@ pub fn separated(triangles: u32, share: f32) -> (FilmMesh, FilmConstraints) {
     let mut constraints = FilmConstraints::new(&mesh);
     let mut changes = FilmChanges::default();
     changes.separated.extend(left_share(&mesh, share));
-    follow_fracture(&mesh, &mut constraints, &changes);
+    update_constraints(&mesh, &mut constraints, &changes);
     (mesh, constraints)
 }

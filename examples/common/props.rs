@@ -2,7 +2,7 @@
 
 use bevy_coating::{
     deform::SolverQuality,
-    remesh::{BuiltFilm, FilmResolution},
+    remesh::{self, BuiltFilm, FilmResolution},
     settings::CoatingSettings,
     sim::FilmState,
     surface::{BuildError, BuildWarning, Surface},

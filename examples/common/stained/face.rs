@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use bevy_coating::appearance::{FilmAppearance, MeshPart};
+use bevy_coating::appearance::{FilmAppearance, MeshPart, shading::PrimerShading};
 use bevy_math::{Mat2, Vec3};
 
 use super::{
