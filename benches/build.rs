@@ -51,7 +51,7 @@ fn torus(triangles: u32) -> Surface {
 }
 
 fn build_of(bencher: Bencher, surface: &Surface, resolution: FilmResolution, triangles: u32) {
-    let make = || build(surface, resolution, 1).expect("a film");
+    let make = || build_film(surface, resolution, 1).expect("a film");
     bencher.counter(ItemsCount::new(triangles)).bench_local(make);
 }
 
