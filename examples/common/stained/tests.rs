@@ -19,7 +19,7 @@ fn square(uvs: [[f32; 2]; 4], slot: Slot) -> (Prop, FilmState) {
         uvs: corners.map(|i: usize| Vec2::from(uvs[i])).to_vec(),
         ..Surface::default()
     };
-    let built = build(&surface, FilmResolution::Triangles(200), 0).expect("a film");
+    let built = build_film(&surface, FilmResolution::Triangles(200), 0).expect("a film");
     let film = FilmState::new(&built, &CoatingSettings::default(), 0, 100).expect("a film");
     (Prop { name: "square".into(), surface, origin: Vec3::ZERO, slots: vec![slot], built, seed: 0 }, film)
 }
