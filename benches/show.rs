@@ -9,7 +9,12 @@
 
 mod common;
 
-use bevy_coating::{appearance::FilmAppearance, remesh::sample::TestPiece, settings::CoatingSettings, sim::FilmState};
+use bevy_coating::{
+    appearance::{DisplayChanges, FilmAppearance},
+    remesh::sample::TestPiece,
+    settings::CoatingSettings,
+    sim::FilmState,
+};
 use divan::{Bencher, counter::ItemsCount};
 
 const SIZES: [u32; 3] = [3_000, 10_000, 100_000];
@@ -31,7 +36,7 @@ fn shown(piece: &TestPiece, film: &FilmState) -> FilmAppearance {
 }
 
 /// Updates what is shown after each `change` of the film.
-fn update(bencher: Bencher, triangles: u32, change: impl Fn(&mut FilmState, f32)) {
+fn update(bencher: Bencher, triangles: u32, changes: DisplayChanges, change: impl Fn(&mut FilmState, f32)) {
     let piece = common::plate(triangles);
     let mut film = separated(&piece);
     let mut shown = shown(&piece, &film);
@@ -39,13 +44,15 @@ fn update(bencher: Bencher, triangles: u32, change: impl Fn(&mut FilmState, f32)
     bencher.counter(ItemsCount::new(triangles)).bench_local(|| {
         sign = -sign;
         change(&mut film, sign);
-        shown.update(&film.mesh, &film.forces, &film.stains)
+        shown.update(&film.mesh, &film.forces, &film.stains, changes)
     });
 }
 
 #[divan::bench(args = SIZES)]
 fn moving(bencher: Bencher, triangles: u32) {
-    update(bencher, triangles, |film, sign| {
+    let mut moved = DisplayChanges::default();
+    moved.moved = true;
+    update(bencher, triangles, moved, |film, sign| {
         for (i, p) in film.mesh.geometry.positions.iter_mut().enumerate() {
             p.z += sign * 1e-3 * (1 + i % 3) as f32;
         }
@@ -54,12 +61,14 @@ fn moving(bencher: Bencher, triangles: u32) {
 
 #[divan::bench(args = SIZES)]
 fn still(bencher: Bencher, triangles: u32) {
-    update(bencher, triangles, |_, _| {});
+    update(bencher, triangles, DisplayChanges::default(), |_, _| {});
 }
 
 #[divan::bench(args = SIZES)]
 fn stained(bencher: Bencher, triangles: u32) {
-    update(bencher, triangles, |film, _| film.stains.revision = film.stains.revision.wrapping_add(1));
+    let mut stained = DisplayChanges::default();
+    stained.stains = true;
+    update(bencher, triangles, stained, |_, _| {});
 }
 
 #[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]

@@ -119,7 +119,6 @@ pub use api::{
     film_pace::FilmPace,
     links::{CoatedBy, CoatingPart},
     messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
-    revision::FilmRevision,
     shelter::{RainShelter, Shelter},
     stain_display::StainDisplay,
     status::CoatingStatus,

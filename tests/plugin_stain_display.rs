@@ -4,7 +4,7 @@ mod common;
 
 use bevy::{mesh::VertexAttributeValues, prelude::*};
 use bevy_coating::{
-    ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, FilmRevision, prelude::*, stain::StainFields,
+    ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, appearance::DisplayChanges, prelude::*, stain::StainFields,
 };
 use common::*;
 
@@ -29,7 +29,7 @@ fn stain_half(app: &mut App, film: Entity) {
         stains.film.stained[i] = if p.x > 0.5 { 2.0 } else { 0.0 };
     }
     stains.revision += 1;
-    entity.get_mut::<FilmRevision>().expect("a revision").stains += 1;
+    entity.get_mut::<DisplayChanges>().expect("a signal").stains = true;
     app.update();
 }
 

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use bevy_coating::{
-    appearance::FilmAppearance,
+    appearance::{DisplayChanges, FilmAppearance},
     deform::{SimdLevel, SolverQuality, sweeps_of_step},
     settings::CoatingSettings,
     sim::{FilmState, Stage, StageTimes},
@@ -76,15 +76,19 @@ fn run(model: &Loaded, args: &Args) -> Row {
     let mut shown: Vec<FilmAppearance> = (films.iter().zip(&model.coated.props))
         .map(|(film, prop)| FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
         .collect();
+    let mut changes = vec![DisplayChanges::default(); films.len()];
     let whole: usize = films.iter().map(whole_constraints).sum();
     let mut times = StageTimes::default();
     let (mut active, mut sweeps) = (0u64, 0u64);
     let mut wall = Duration::ZERO;
     for _ in 0..args.steps {
         let start = Instant::now();
-        for (film, shown) in films.iter_mut().zip(&mut shown) {
+        for ((film, shown), changes) in films.iter_mut().zip(&mut shown).zip(&mut changes) {
             film.step_timed(&settings, &environment, &mut times);
-            times.measure(Stage::MeshGeneration, || shown.update(&film.mesh, &film.forces, &film.stains));
+            times.measure(Stage::MeshGeneration, || {
+                changes.record(&film.changes, &film.stains);
+                shown.update(&film.mesh, &film.forces, &film.stains, changes.take());
+            });
         }
         wall += start.elapsed();
         active += films.iter().map(|film| film.constraints.active_counts().iter().sum::<usize>() as u64).sum::<u64>();

@@ -11,7 +11,6 @@ pub(crate) mod error;
 pub(crate) mod film_pace;
 pub(crate) mod links;
 pub(crate) mod messages;
-pub(crate) mod revision;
 pub(crate) mod shelter;
 pub(crate) mod stain_display;
 pub(crate) mod status;

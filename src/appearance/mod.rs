@@ -12,6 +12,7 @@
 //! models.
 
 mod backs;
+mod changes;
 mod corners;
 mod face_slots;
 mod metal;
@@ -23,6 +24,7 @@ pub mod shading;
 mod tests;
 mod wedges;
 
+pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;
 pub use part::MeshPart;
 
@@ -47,18 +49,6 @@ pub const FILM_THICKNESS: f32 = 0.01;
 /// through the back of a flake that has only just let go.
 pub const METAL_DEPTH: f32 = 0.02;
 
-/// What [`FilmAppearance::update`] changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ShownChange {
-    /// Vertices of fronts and backs were added or renumbered, and their indices rewritten; else only positions,
-    /// normals and tangents were.
-    pub topology: bool,
-    /// Other faces than before show their backs or the metal under them.
-    pub exposure: bool,
-    /// Stains look different.
-    pub stains: bool,
-}
-
 /// The shown parts of one film, and what is needed to bring them up to date.
 #[derive(Clone, Debug)]
 pub struct FilmAppearance {
@@ -70,17 +60,8 @@ pub struct FilmAppearance {
     fronts: Vec<MeshPart>,
     backs: Backs,
     metal: Metal,
-    seen: Option<Seen>,
-}
-
-/// The film's state at the last update, as far as it matters to connectivity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Seen {
-    vertices: usize,
-    torn: u32,
-    removed: usize,
-    separated: u32,
-    stains: u32,
+    /// [`DisplayChanges::epoch`] of the state that the parts show.
+    epoch: u32,
 }
 
 impl FilmAppearance {
@@ -104,9 +85,9 @@ impl FilmAppearance {
             face_slots,
             backs: Backs::default(),
             metal: Metal::default(),
-            seen: None,
+            epoch: 0,
         };
-        shown.update(mesh, forces, stains);
+        shown.update(mesh, forces, stains, DisplayChanges::everything());
         shown
     }
 
@@ -130,55 +111,45 @@ impl FilmAppearance {
         &self.metal.part
     }
 
-    /// Brings the parts up to date with the film.
-    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> ShownChange {
+    /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
+    ///
+    /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's count as a change of everything.
+    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields, changes: DisplayChanges) {
+        let replaced = std::mem::replace(&mut self.epoch, changes.epoch) != changes.epoch;
+        let changes = if replaced { DisplayChanges::everything() } else { changes };
+        let DisplayChanges { topology: tore, exposure: exposed, stains: stained, .. } = changes;
         let topology = &mesh.topology;
-        let seen = Seen {
-            vertices: topology.vertex_count(),
-            torn: forces.torn_edges,
-            removed: topology.removed_face_count(),
-            separated: forces.separations,
-            stains: stains.revision,
-        };
-        let topology_changed = self
-            .seen
-            .is_none_or(|old| (old.vertices, old.torn, old.removed) != (seen.vertices, seen.torn, seen.removed));
-        let exposure_changed =
-            self.seen.is_none_or(|old| (old.removed, old.separated) != (seen.removed, seen.separated));
-        let stains_changed = self.seen.is_none_or(|old| old.stains != seen.stains);
-        self.seen = Some(seen);
-        if topology_changed {
+        if tore {
             self.wedges.renew(topology, &self.face_slots);
             self.write_front_attributes(mesh);
             self.write_front_indices(topology);
         }
         // What is new or has new neighbours is looked at like what moved.
-        let moved = self.moves.follow(mesh, topology_changed);
+        let moved = (changes.moved || tore) && self.moves.follow(mesh, tore);
         if moved {
             self.frames.turn_faces(mesh, &self.attributes, &self.moves);
             self.frames.add_up(topology, &self.moves);
             self.write_front_frames(mesh);
         }
-        if topology_changed || exposure_changed {
+        if tore || exposed {
             self.backs.renew(topology, forces, &self.face_slots, &self.wedges);
         }
-        if moved || topology_changed || exposure_changed {
+        if moved || tore || exposed {
             self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
         }
-        if exposure_changed {
+        if exposed {
             let depth = mesh.geometry.mean_edge * METAL_DEPTH;
             self.metal.renew(mesh, forces, &self.face_slots, &self.wedges, &self.attributes, depth);
         }
-        if topology_changed || stains_changed {
+        if tore || stained {
             self.write_front_stains(topology, stains);
         }
-        if topology_changed || exposure_changed || stains_changed {
+        if tore || exposed || stained {
             self.backs.stain(&self.fronts);
         }
-        if exposure_changed || stains_changed {
+        if exposed || stained {
             self.metal.stain(stains);
         }
-        ShownChange { topology: topology_changed, exposure: exposure_changed, stains: stains_changed }
     }
 
     fn write_front_attributes(&mut self, mesh: &FilmMesh) {

@@ -12,7 +12,7 @@ fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
     let mut film = FilmState::new(&piece.film, &settings, 4, 250).unwrap();
     let mut shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
     film.age_to(age, &settings, &Environment::default());
-    shown.update(&film.mesh, &film.forces, &film.stains);
+    shown.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
     (film, shown, piece.surface)
 }
 
@@ -104,23 +104,60 @@ fn normals_follow_the_film_as_it_bends() {
     assert!(film.measure().lift_p90 > Some(0.3));
 }
 
+/// Every array of every part.
+fn arrays(appearance: &FilmAppearance) -> Vec<MeshPart> {
+    let fronts = (0..appearance.slot_count()).filter_map(|slot| appearance.front(slot));
+    fronts.chain([appearance.backs(), appearance.metal()]).cloned().collect()
+}
+
 #[test]
-fn updates_say_what_changed() {
+fn recorded_changes_bring_an_appearance_to_where_a_new_one_begins() {
     let piece = sample::plate(300, 1).unwrap();
     let settings = CoatingSettings::default();
     let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
-    let mut shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
-    assert_eq!(shown.update(&film.mesh, &film.forces, &film.stains), ShownChange::default());
-    let (mut topology, mut exposure) = (false, false);
+    let appearance =
+        |film: &FilmState| FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let (mut followed, mut changes) = (appearance(&film), DisplayChanges::default());
+    let (mut steps, mut topology, mut exposure, mut stains) = (0, 0, 0, 0);
     for _ in 0..100 {
         film.step(&settings, &Environment::default());
-        let change = shown.update(&film.mesh, &film.forces, &film.stains);
-        assert_eq!(change.topology, !film.changes.torn.is_empty() || !film.changes.removed.is_empty());
-        assert_eq!(change.exposure, !film.changes.separated.is_empty() || !film.changes.removed.is_empty());
-        topology |= change.topology;
-        exposure |= change.exposure;
+        changes.record(&film.changes, &film.stains);
+        steps += 1;
+        // Sometimes several steps pass between two looks.
+        if steps % 3 == 1 {
+            continue;
+        }
+        let taken = changes.take();
+        followed.update(&film.mesh, &film.forces, &film.stains, taken);
+        assert_eq!(arrays(&followed), arrays(&appearance(&film)), "after step {steps}");
+        assert!(changes.is_empty());
+        topology += usize::from(taken.topology);
+        exposure += usize::from(taken.exposure);
+        stains += usize::from(taken.stains);
     }
-    assert!(topology && exposure);
+    assert!(topology > 5 && topology < 66 && exposure > 5 && stains > 5, "{topology} {exposure} {stains}");
+}
+
+#[test]
+fn going_back_in_time_is_not_taken_for_standing_still() {
+    let piece = sample::plate(300, 1).unwrap();
+    let settings = CoatingSettings::default();
+    let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
+    film.age_to(0.4, &settings, &Environment::default());
+    let young = film.clone();
+    film.age_to(1.0, &settings, &Environment::default());
+    let appearance =
+        |film: &FilmState| FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let (mut followed, mut changes) = (appearance(&film), DisplayChanges::default());
+    assert_ne!(arrays(&followed), arrays(&appearance(&young)));
+    changes.restart();
+    followed.update(&young.mesh, &young.forces, &young.stains, changes.take());
+    assert_eq!(arrays(&followed), arrays(&appearance(&young)));
+    // A signal whose flags were lost still tells by its epoch.
+    changes.restart();
+    changes.take();
+    followed.update(&film.mesh, &film.forces, &film.stains, changes);
+    assert_eq!(arrays(&followed), arrays(&appearance(&film)));
 }
 
 #[test]

@@ -21,8 +21,8 @@ use crate::{
         coating::Coating,
         film_pace::FilmPace,
         links::{AwaitingFilm, CoatedBy, CoatingPart, FilmRefused, FilmSlot, FilmSource},
-        revision::FilmRevision,
     },
+    appearance::DisplayChanges,
     deform::FilmConstraints,
     display::FilmDisplay,
     film::{FilmChanges, FilmMesh},
@@ -34,7 +34,7 @@ use crate::{
 /// All that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
-    (CoatedBy, FilmPace, FilmShelter, FilmRevision, FilmSource, FilmBuild, FilmDisplay),
+    (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmBuild, FilmDisplay),
 );
 
 /// Takes the film on `film` off, ready or being built. Its meshes count as changed, so that they are looked at

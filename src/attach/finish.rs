@@ -22,8 +22,8 @@ use crate::{
         film_pace::FilmPace,
         links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, FilmSource},
         messages::{FilmFailed, FilmReady},
-        revision::FilmRevision,
     },
+    appearance::DisplayChanges,
     sim::FilmState,
 };
 /// Puts finished films on their props.
@@ -73,7 +73,7 @@ pub(super) fn finish_builds(
                     .entity(film)
                     .try_remove::<FilmBuild>()
                     .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
-                    .try_insert((pace, shelter, FilmRevision::default(), source, display));
+                    .try_insert((pace, shelter, DisplayChanges::default(), source, display));
                 commands.write_message(FilmReady { entity: film, root: build.root, triangles, warnings });
             }
         }

@@ -16,8 +16,8 @@ use super::{
     mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
 };
 use crate::{
-    api::{diagnostics::CoatingTimings, revision::FilmRevision, stain_display::StainDisplay},
-    appearance::{FilmAppearance, ShownChange, shading::StainPart},
+    api::{diagnostics::CoatingTimings, stain_display::StainDisplay},
+    appearance::{DisplayChanges, FilmAppearance, shading::StainPart},
     film::FilmMesh,
     fracture::FilmForces,
     mesh_reader::SlotAttributes,
@@ -38,13 +38,8 @@ pub(crate) struct FilmDisplay {
     #[cfg(feature = "render")]
     pub(super) materials_outdated: bool,
     slots: Vec<DisplaySlot>,
-    /// Revision that `shown` is up to date with.
-    seen: FilmRevision,
-    /// What the fronts' assets do not show yet.
-    pending: Option<ShownChange>,
-    /// What the assets of backs and metal do not show yet.
-    #[cfg(feature = "render")]
-    pub(super) pending_parts: Option<ShownChange>,
+    /// Changes that were taken in this frame, to be written into assets.
+    pub(super) changes: DisplayChanges,
     #[cfg(feature = "render")]
     pub(super) parts: super::parts::PartHandles,
 }
@@ -76,11 +71,7 @@ impl FilmDisplay {
             #[cfg(feature = "render")]
             materials_outdated: false,
             slots: slots.into_iter().map(empty).collect(),
-            seen: FilmRevision::default(),
-            pending: None,
-            // A film that has been aged already has backs and metal from the first frame on.
-            #[cfg(feature = "render")]
-            pending_parts: Some(ShownChange { topology: true, exposure: true, stains: true }),
+            changes: DisplayChanges::default(),
             #[cfg(feature = "render")]
             parts: super::parts::PartHandles::default(),
         }
@@ -88,7 +79,7 @@ impl FilmDisplay {
 
     /// Follows the film to where it is when it is put on its prop, and writes the meshes. Part of building it.
     pub fn prepare(&mut self, film: &FilmState) {
-        self.shown.update(&film.mesh, &film.forces, &film.stains);
+        self.shown.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
         for (slot, display) in self.slots.iter_mut().enumerate() {
             // A primitive of which nothing was left after cleaning keeps its mesh.
             let Some(part) = self.shown.front(slot) else { continue };
@@ -96,16 +87,6 @@ impl FilmDisplay {
             let stains = front_writer(&self.paint, self.edge);
             write_part(&mut mesh, part, display.attributes, self.space, stains);
             display.mesh = Some(mesh);
-        }
-    }
-
-    /// Notes that `paint` is not shown yet, and what has to be written for it.
-    pub(super) fn repainted(&mut self, change: ShownChange) {
-        add(&mut self.pending, change);
-        #[cfg(feature = "render")]
-        {
-            add(&mut self.pending_parts, change);
-            self.materials_outdated = true;
         }
     }
 
@@ -118,22 +99,19 @@ impl FilmDisplay {
     }
 }
 
-/// Brings what is shown up to date with the films that changed, in parallel. Touches no asset.
+/// Takes the changes of every film and brings the appearance of those that changed up to date, in parallel. Touches no
+/// asset.
 pub(super) fn follow_films(
-    mut films: Query<(&FilmMesh, &FilmForces, &StainFields, &FilmRevision, &mut FilmDisplay)>,
+    mut films: Query<(&FilmMesh, &FilmForces, &StainFields, &mut DisplayChanges, &mut FilmDisplay)>,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::MeshGeneration, || {
-        films.par_iter_mut().for_each(|(mesh, forces, stains, revision, mut display)| {
-            if display.seen == *revision {
-                return;
-            }
+        films.par_iter_mut().for_each(|(mesh, forces, stains, mut changes, mut display)| {
             let display = display.bypass_change_detection();
-            display.seen = *revision;
-            let change = display.shown.update(mesh, forces, stains);
-            add(&mut display.pending, change);
-            #[cfg(feature = "render")]
-            add(&mut display.pending_parts, change);
+            display.changes = changes.bypass_change_detection().take();
+            if !display.changes.is_empty() {
+                display.shown.update(mesh, forces, stains, display.changes);
+            }
         });
     });
 }
@@ -148,13 +126,6 @@ fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
     StainWriter { part: StainPart::Film, paint, carrier, edge }
 }
 
-fn add(pending: &mut Option<ShownChange>, change: ShownChange) {
-    let pending = pending.get_or_insert_default();
-    pending.topology |= change.topology;
-    pending.exposure |= change.exposure;
-    pending.stains |= change.stains;
-}
-
 /// Writes the meshes of the films that changed.
 pub(super) fn write_fronts(
     mut films: Query<&mut FilmDisplay>,
@@ -164,17 +135,22 @@ pub(super) fn write_fronts(
     timings.measure(Stage::MeshGeneration, || {
         for mut display in &mut films {
             let display = display.bypass_change_detection();
-            let Some(change) = display.pending.take() else { continue };
+            let changes = display.changes;
+            if !(changes.topology || changes.moved || changes.stains) {
+                continue;
+            }
             for (slot, front) in display.slots.iter().enumerate() {
                 let Some(part) = display.shown.front(slot) else { continue };
                 let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
                 let stains = front_writer(&display.paint, display.edge);
-                if change.topology {
+                if changes.topology {
                     write_part(&mut mesh, part, front.attributes, display.space, stains);
                     continue;
                 }
-                move_part(&mut mesh, part, display.space);
-                if change.stains {
+                if changes.moved {
+                    move_part(&mut mesh, part, display.space);
+                }
+                if changes.stains {
                     write_stains(&mut mesh, part, stains);
                 }
             }

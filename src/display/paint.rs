@@ -12,7 +12,7 @@ use super::FilmDisplay;
 use crate::{
     api::{coating::Coating, links::CoatedBy, stain_display::StainDisplay},
     appearance::{
-        ShownChange,
+        DisplayChanges,
         shading::{FilmShading, StainPart, StainPattern, StainSample, SurfaceShading},
     },
     stain::StainFields,
@@ -63,9 +63,9 @@ impl FilmPaint {
 /// Hands changed looks, displays and directions of streaks to the films.
 pub(super) fn follow_coatings(
     coatings: Query<Ref<Coating>>,
-    mut films: Query<(&CoatedBy, Ref<StainFields>, &mut FilmDisplay)>,
+    mut films: Query<(&CoatedBy, Ref<StainFields>, &mut DisplayChanges, &mut FilmDisplay)>,
 ) {
-    for (coated_by, stains, mut display) in &mut films {
+    for (coated_by, stains, mut changes, mut display) in &mut films {
         let Ok(coating) = coatings.get(coated_by.0) else { continue };
         let new = display.is_added();
         let display = display.bypass_change_detection();
@@ -79,6 +79,14 @@ pub(super) fn follow_coatings(
         }
         let other = paint.display != display.paint.display;
         display.paint = paint;
-        display.repainted(ShownChange { topology: other, exposure: other, stains: true });
+        #[cfg(feature = "render")]
+        {
+            display.materials_outdated = true;
+        }
+        let changes = changes.bypass_change_detection();
+        changes.stains = true;
+        // Stains shown in another way are another layout of the meshes.
+        changes.topology |= other;
+        changes.exposure |= other;
     }
 }

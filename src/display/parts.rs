@@ -5,7 +5,7 @@ use bevy::{
     camera::visibility::RenderLayers,
     color::{Color, ColorToComponents, LinearRgba},
     ecs::{
-        change_detection::DetectChangesMut,
+        change_detection::{DetectChanges, DetectChangesMut},
         entity::Entity,
         hierarchy::ChildOf,
         name::Name,
@@ -31,7 +31,7 @@ use crate::{
         links::{CoatingPart, FilmSource},
         stain_display::StainDisplay,
     },
-    appearance::{MeshPart, ShownChange, shading::StainPart},
+    appearance::{DisplayChanges, MeshPart, shading::StainPart},
     mesh_reader::SlotAttributes,
     sim::Stage,
 };
@@ -144,12 +144,17 @@ pub(super) fn write_parts(
 ) {
     timings.measure(Stage::MeshGeneration, || {
         for (film, source, transform, mut display) in &mut films {
+            // A film that was aged before it was put on its prop has backs and metal from its first frame on.
+            let new = display.is_added();
             let display = display.bypass_change_detection();
-            let Some(change) = display.pending_parts.take() else { continue };
+            let changes = if new { DisplayChanges::everything() } else { display.changes };
+            if changes.is_empty() {
+                continue;
+            }
             let mut parts = std::mem::take(&mut display.parts);
             let home = Home { film, transform, source };
-            assets.show(display, StainPart::Back, &mut parts.backs, change, &home);
-            assets.show(display, StainPart::Metal, &mut parts.metal, change, &home);
+            assets.show(display, StainPart::Back, &mut parts.backs, changes, &home);
+            assets.show(display, StainPart::Metal, &mut parts.metal, changes, &home);
             display.parts = parts;
         }
     });
@@ -179,7 +184,7 @@ impl PartAssets<'_, '_> {
         display: &FilmDisplay,
         kind: StainPart,
         part: &mut Option<PartHandle>,
-        change: ShownChange,
+        changes: DisplayChanges,
         home: &Home,
     ) {
         let shown = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
@@ -192,7 +197,7 @@ impl PartAssets<'_, '_> {
             self.commands.entity(old.entity).try_despawn();
         }
         if let Some(part) = part {
-            self.write(part, shown, stains, change, display.space);
+            self.write(part, shown, stains, changes, display.space);
         } else if !shown.is_empty()
             && let Some(sides) = Sides::of(&home.source.slots, &self.props, &self.plain, display.space)
         {
@@ -211,12 +216,13 @@ impl PartAssets<'_, '_> {
         part: &PartHandle,
         shown: &MeshPart,
         stains: StainWriter,
-        change: ShownChange,
+        changes: DisplayChanges,
         space: PartSpace,
     ) {
         let moves = stains.part == StainPart::Back;
-        let whole = change.exposure || (change.topology && moves);
-        if !(whole || change.stains || moves) {
+        let whole = changes.exposure || (changes.topology && moves);
+        let moved = moves && changes.moved;
+        if !(whole || changes.stains || moved) {
             return;
         }
         let Some(mut mesh) = self.meshes.get_mut(&part.mesh) else { return };
@@ -224,10 +230,10 @@ impl PartAssets<'_, '_> {
             write_part(&mut mesh, shown, SlotAttributes::default(), space, stains);
             return;
         }
-        if moves {
+        if moved {
             move_part(&mut mesh, shown, space);
         }
-        if change.stains {
+        if changes.stains {
             write_stains(&mut mesh, shown, stains);
         }
     }

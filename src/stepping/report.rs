@@ -2,6 +2,7 @@
 
 use bevy::{
     ecs::{
+        change_detection::DetectChangesMut,
         entity::Entity,
         message::MessageWriter,
         system::{Query, ResMut},
@@ -16,13 +17,13 @@ use crate::{
         film_pace::FilmPace,
         links::FilmSource,
         messages::{FirstCrack, PieceFallen},
-        revision::FilmRevision,
     },
+    appearance::DisplayChanges,
     film::{FilmChanges, FilmMesh},
     sim::{FilmClock, Stage},
     stain::StainFields,
 };
-/// Reports the first crack and fallen pieces of the due films, and counts up their revisions.
+/// Reports the first crack and fallen pieces of the due films, and adds up what display has to follow.
 pub(super) fn report(
     mut films: Query<(
         Entity,
@@ -33,14 +34,14 @@ pub(super) fn report(
         &StainFields,
         &FilmSource,
         &GlobalTransform,
-        &mut FilmRevision,
+        &mut DisplayChanges,
     )>,
     mut cracks: MessageWriter<FirstCrack>,
     mut pieces: MessageWriter<PieceFallen>,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::Other, || {
-        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut revision) in &mut films {
+        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut display) in &mut films {
             if !pace.due {
                 continue;
             }
@@ -60,15 +61,7 @@ pub(super) fn report(
                     faces: debris.faces,
                 });
             }
-            let topology = !(changes.torn.is_empty() && changes.removed.is_empty());
-            let exposure = !(changes.separated.is_empty() && changes.removed.is_empty());
-            let stained = stains.revision != revision.stains;
-            if topology || exposure || changes.moved || stained {
-                revision.positions = revision.positions.wrapping_add(u32::from(changes.moved));
-                revision.topology = revision.topology.wrapping_add(u32::from(topology));
-                revision.exposure = revision.exposure.wrapping_add(u32::from(exposure));
-                revision.stains = stains.revision;
-            }
+            display.bypass_change_detection().record(changes, stains);
         }
     });
 }
