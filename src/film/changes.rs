@@ -2,7 +2,10 @@
 
 use bevy_math::Vec3;
 
-use super::{FaceId, HalfEdgeId, TearEnd, VertexId};
+use super::{
+    edit::TearEnd,
+    handles::{FaceId, HalfEdgeId, VertexId},
+};
 
 /// A piece of film that fell in this step.
 #[derive(Clone, Copy, Debug, PartialEq)]

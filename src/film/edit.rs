@@ -3,7 +3,10 @@
 //! No edit moves or renumbers anything: tearing switches a flag and may append duplicates of vertices,
 //! removing faces switches them off.
 
-use super::{FaceFate, FaceId, HalfEdgeId, Topology, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::{FaceFate, Fan, Topology},
+};
 
 /// What a tear did to one end of the torn edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +56,7 @@ impl Topology {
 
     /// The half-edges of the fan that starts at `first`, counter-clockwise: for `keep_first` of
     /// [`Topology::tear`].
-    pub fn fan_at(&self, first: HalfEdgeId) -> super::Fan<'_> {
+    pub fn fan_at(&self, first: HalfEdgeId) -> Fan<'_> {
         self.fan_from(first)
     }
 

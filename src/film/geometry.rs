@@ -4,7 +4,10 @@
 use bevy_math::{Vec3, ops};
 use core::f32::consts::PI;
 
-use super::{FaceId, HalfEdgeId, Topology, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::Topology,
+};
 
 /// Positions, at rest and now, in the prop's space with its world scale applied; and rest measures.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@
 //! The twin is the one of the rest state and is kept when the edge tears: whether the two are still bound is
 //! a flag. All handles stay valid for the life of the film (see [`super::edit`]).
 
-use super::{FaceId, HalfEdgeId, VertexId};
+use super::handles::{FaceId, HalfEdgeId, VertexId};
 
 /// What has become of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,10 @@
 //! Checks every invariant of a film's connectivity and geometry.
 
-use super::{FaceId, FilmMesh, HalfEdgeId, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    mesh::FilmMesh,
+    topology::FaceFate,
+};
 
 /// A broken invariant: a bug, never the user's doing.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -132,8 +136,8 @@ impl FilmMesh {
                 return Err(InvariantError::BoundEnds(h));
             }
             match t.fate(h.face()) {
-                super::FaceFate::Live if !t.is_live(twin.face()) => return Err(InvariantError::BoundToRemoved(h)),
-                super::FaceFate::Stripped => return Err(InvariantError::StrippedBound(h.face())),
+                FaceFate::Live if !t.is_live(twin.face()) => return Err(InvariantError::BoundToRemoved(h)),
+                FaceFate::Stripped => return Err(InvariantError::StrippedBound(h.face())),
                 _ => {}
             }
         }

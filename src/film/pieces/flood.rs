@@ -1,7 +1,10 @@
 //! Flood fills over live faces joined across bound edges.
 
 use super::loose::ListScratch;
-use crate::film::{FaceId, HalfEdgeId, Topology};
+use crate::film::{
+    handles::{FaceId, HalfEdgeId},
+    topology::Topology,
+};
 
 /// Room for flood fills, kept between steps.
 #[derive(Clone, Debug, Default)]

@@ -4,6 +4,7 @@
 //! film. [`LoosePieces`] is the list of what came loose; its [`find`](LoosePieces::find) floods the whole film and
 //! is the reference for the former.
 
+mod find;
 mod flood;
 mod loose;
 #[cfg(test)]

@@ -1,7 +1,14 @@
 //! Pieces kept up to date, edit by edit.
 
-use super::{LoosePieces, PieceScratch, flood::bound_neighbours};
-use crate::film::{FaceId, HalfEdgeId, TearEnd, Topology, VertexId};
+use super::{
+    flood::{PieceScratch, bound_neighbours},
+    loose::LoosePieces,
+};
+use crate::film::{
+    edit::TearEnd,
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::Topology,
+};
 
 /// Piece of a face that is in none.
 const NONE: u32 = u32::MAX;
