@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bevy_math::Vec3;
 
-use super::CleanSurface;
-use crate::surface::Surface;
+use super::clean_surface::CleanSurface;
+use crate::surface::prop_surface::Surface;
 
 /// Panics with the promise that is broken.
 pub(super) fn check(surface: &Surface, clean: &CleanSurface) {

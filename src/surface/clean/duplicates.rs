@@ -1,6 +1,6 @@
 //! Faces that repeat another one.
 
-use super::Face;
+use super::face::Face;
 
 /// Drops every face that has the vertices and the winding of an earlier one; returns how many.
 pub(super) fn drop_duplicates(faces: &mut Vec<Face>) -> usize {

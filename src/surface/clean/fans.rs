@@ -2,8 +2,8 @@
 
 use bevy_math::Vec3;
 
+use super::face::{Face, NONE};
 use super::pair::{Edges, sorted_half_edges};
-use super::{Face, NONE};
 
 /// Gives every fan but the first of each vertex a duplicate of the vertex, so that the twins are exactly the
 /// edges with two faces. Returns how many vertices had several fans that only met there, at no edge with

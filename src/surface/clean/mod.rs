@@ -21,7 +21,9 @@
 //!   A one-sided shell (Möbius) is cut where its two sides meet.
 //! - **Vertices** where several fans of faces meet get one duplicate for each further fan.
 
+mod clean_surface;
 mod duplicates;
+mod face;
 mod fans;
 mod orient;
 mod pair;
@@ -34,65 +36,17 @@ mod checker;
 #[cfg(test)]
 mod tests;
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::Vec3;
 
-use super::{BuildError, BuildWarning, Surface, SurfaceSite};
+use super::{
+    error::BuildError,
+    prop_surface::{Surface, SurfaceSite},
+    warning::BuildWarning,
+};
+use face::{Face, NONE, has_repeats};
 
+pub use clean_surface::CleanSurface;
 pub use pair::twins;
-
-/// The index of no vertex or half-edge.
-const NONE: u32 = u32::MAX;
-
-/// A surface made an oriented manifold: every edge has one face, or two that run along it in opposite
-/// directions, and the faces of every vertex form one fan.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CleanSurface {
-    /// Vertex positions: the surface's own, welded, in the order of their first use by index; duplicates made
-    /// by splitting come last. Every vertex is used.
-    pub positions: Vec<Vec3>,
-    /// Vertex indices of each triangle.
-    pub triangles: Vec<[u32; 3]>,
-    /// For each corner of each triangle, the corner `3 * t + k` of the surface whose attributes it has. All
-    /// three belong to the triangle's [`source`](Self::source), except at a vertex that ended a T-junction:
-    /// there it is the corner of the dissolved triangle that had filled the junction.
-    pub corners: Vec<[u32; 3]>,
-    /// Where each corner of each triangle lies on the surface, always on its [`source`](Self::source). The
-    /// weights are a unit vector except at a vertex that ended a T-junction.
-    pub sites: Vec<[SurfaceSite; 3]>,
-    /// The surface's triangle that each triangle is, or is a part of.
-    pub source: Vec<u32>,
-    /// Whether the triangle's winding is opposite to its source's.
-    pub flipped: Vec<bool>,
-    /// What was put right.
-    pub warnings: Vec<BuildWarning>,
-}
-
-/// One triangle on its way through the stages.
-#[derive(Clone, Debug)]
-struct Face {
-    /// Welded vertices.
-    vertices: [u32; 3],
-    /// Surface corners, see [`CleanSurface::corners`].
-    corners: [u32; 3],
-    /// Weights in the source triangle.
-    weights: [Vec3; 3],
-    source: u32,
-    flipped: bool,
-}
-
-impl Face {
-    /// Reverses the winding; half-edges 0 and 2 change places.
-    fn turn(&mut self) {
-        self.vertices.swap(1, 2);
-        self.corners.swap(1, 2);
-        self.weights.swap(1, 2);
-        self.flipped = !self.flipped;
-    }
-
-    fn points(&self, positions: &[Vec3]) -> [DVec3; 3] {
-        self.vertices.map(|v| positions[v as usize].as_dvec3())
-    }
-}
 
 /// Cleans a surface.
 ///
@@ -172,8 +126,4 @@ fn collect(faces: Vec<Face>, positions: &[Vec3], warnings: Vec<BuildWarning>) ->
         clean.flipped.push(face.flipped);
     }
     clean
-}
-
-fn has_repeats([a, b, c]: [u32; 3]) -> bool {
-    a == b || b == c || c == a
 }

@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{Face, NONE};
+use super::face::{Face, NONE};
 
 /// Turns faces until all twins of a shell run in opposite directions; the winding of the larger area stays.
 /// Where a shell is one-sided the last twins to be met are parted. Returns how many edges that were.

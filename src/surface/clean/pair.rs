@@ -2,7 +2,7 @@
 
 use bevy_math::{DVec3, Vec3};
 
-use super::{Face, NONE};
+use super::face::{Face, NONE};
 
 /// For each half-edge `3f + k` of the triangles (from corner `k` to the next), the half-edge that runs the
 /// other way along the same edge; `u32::MAX` at borders, and at edges that are not manifold.

@@ -10,7 +10,7 @@ use std::collections::BinaryHeap;
 
 use bevy_math::{DVec3, Vec3};
 
-use super::{Face, has_repeats};
+use super::face::{Face, has_repeats};
 
 /// A triangle has no area when its altitude is below this part of its longest edge (and the welding
 /// tolerance): a ten-thousandth of a degree. CAD slivers are much fatter, and are left to the remesher.

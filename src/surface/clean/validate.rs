@@ -1,6 +1,6 @@
 //! What the stages rely on: indices in range, finite positions, attributes of the right length.
 
-use crate::surface::{BuildError, Surface};
+use crate::surface::{error::BuildError, prop_surface::Surface};
 
 /// Half-edges, corners and split vertices are `u32`, and remeshing may double what it is given.
 pub(super) const MAX_TRIANGLES: usize = (u32::MAX / 8) as usize;

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use bevy_math::{DVec3, Vec3};
 
-use super::NONE;
-use crate::surface::Surface;
+use super::face::NONE;
+use crate::surface::prop_surface::Surface;
 
 /// Vertices nearer than this part of the bounding box's diagonal are one...
 const TOLERANCE: f64 = 1e-5;
