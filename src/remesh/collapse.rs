@@ -3,7 +3,7 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// What a collapse must respect.
@@ -39,7 +39,7 @@ pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) 
 }
 
 /// Where the two ends of an edge may meet.
-type Meeting = (Vec3, Place);
+type Meeting = (Vec3, SurfacePoint);
 
 /// Collapses the edge if topology, features, size and shape allow it.
 pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseLimits) -> bool {
@@ -47,14 +47,14 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
     if meetings[0].is_none() || !keeps_topology(mesh, h) {
         return false;
     }
-    for (position, place) in meetings.into_iter().flatten() {
-        if keeps_features(mesh, h, place, limits)
+    for (position, surface_point) in meetings.into_iter().flatten() {
+        if keeps_features(mesh, h, surface_point, limits)
             && keeps_shape(mesh, h, position, limits)
-            && keeps_close(mesh, h, position, place, limits)
+            && keeps_close(mesh, h, position, surface_point, limits)
         {
             let kept = collapse(mesh, h);
             mesh.positions[kept.index()] = position;
-            mesh.places[kept.index()] = place;
+            mesh.surface_points[kept.index()] = surface_point;
             return true;
         }
     }
@@ -65,22 +65,24 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
 /// matters.
 fn meetings(mesh: &WorkMesh, h: HalfEdgeId) -> [Option<Meeting>; 3] {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let at = |v: VertexId| Some((mesh.position(v), mesh.place(v)));
+    let at = |v: VertexId| Some((mesh.position(v), mesh.surface_point(v)));
     let chain = mesh.chain(h);
-    match (mesh.place(a), mesh.place(b)) {
-        (Place::Free(start), Place::Free(_)) => {
+    match (mesh.surface_point(a), mesh.surface_point(b)) {
+        (SurfacePoint::Free(start), SurfacePoint::Free(_)) => {
             let foot = project(mesh.reference, mesh.position(a).midpoint(mesh.position(b)), start);
-            [Some((foot.position, Place::Free(foot.triangle))), at(a), at(b)]
+            [Some((foot.position, SurfacePoint::Free(foot.triangle))), at(a), at(b)]
         }
-        (Place::Free(_), _) => [at(b), None, None],
-        (_, Place::Free(_)) => [at(a), None, None],
-        (Place::Line { chain: c, s: from }, Place::Line { chain: d, s: to }) if c == d && chain == Some(c) => {
+        (SurfacePoint::Free(_), _) => [at(b), None, None],
+        (_, SurfacePoint::Free(_)) => [at(a), None, None],
+        (SurfacePoint::Line { chain: c, s: from }, SurfacePoint::Line { chain: d, s: to })
+            if c == d && chain == Some(c) =>
+        {
             let s = 0.5 * (from + to);
             let position = mesh.reference.chains.position(mesh.reference.positions, c, s);
-            [Some((position, Place::Line { chain: c, s })), at(a), at(b)]
+            [Some((position, SurfacePoint::Line { chain: c, s })), at(a), at(b)]
         }
-        (Place::Line { chain: c, .. }, Place::Fixed(_)) if chain == Some(c) => [at(b), None, None],
-        (Place::Fixed(_), Place::Line { chain: c, .. }) if chain == Some(c) => [at(a), None, None],
+        (SurfacePoint::Line { chain: c, .. }, SurfacePoint::Fixed(_)) if chain == Some(c) => [at(b), None, None],
+        (SurfacePoint::Fixed(_), SurfacePoint::Line { chain: c, .. }) if chain == Some(c) => [at(a), None, None],
         _ => [None; 3],
     }
 }
@@ -108,7 +110,7 @@ fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
 }
 
 /// Feature lines stay lines: none merge, and none strays from its course.
-fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, place: Place, limits: CollapseLimits) -> bool {
+fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, surface_point: SurfacePoint, limits: CollapseLimits) -> bool {
     for e in [Some(h), mesh.topology.twin(h)].into_iter().flatten() {
         // The two other edges of a vanishing face become one.
         if mesh.chain(e.next()).is_some() && mesh.chain(e.previous()).is_some() {
@@ -117,13 +119,13 @@ fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, place: Place, limits: Collapse
     }
     let Some(chain) = mesh.chain(h) else { return true };
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let meeting = match place {
-        Place::Line { s, .. } => s,
-        Place::Fixed(v) => mesh.reference.chains.end(chain, v),
-        Place::Free(_) => return false,
+    let meeting = match surface_point {
+        SurfacePoint::Line { s, .. } => s,
+        SurfacePoint::Fixed(v) => mesh.reference.chains.end(chain, v),
+        SurfacePoint::Free(_) => return false,
     };
-    [(a, b), (b, a)].into_iter().all(|(v, other)| match mesh.place(v) {
-        Place::Line { .. } => chain_neighbours(mesh, v, chain)
+    [(a, b), (b, a)].into_iter().all(|(v, other)| match mesh.surface_point(v) {
+        SurfacePoint::Line { .. } => chain_neighbours(mesh, v, chain)
             .filter(|&n| n != other)
             .all(|n| mesh.reference.strays(chain, meeting, mesh.arc_length(n, chain)) <= limits.deviation),
         _ => true,
@@ -166,7 +168,13 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
 
 /// No edge at the merged vertex cuts through a bend of the surface, and neither end is left far behind: it may have
 /// been the tip of a bump.
-fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, limits: CollapseLimits) -> bool {
+fn keeps_close(
+    mesh: &WorkMesh,
+    h: HalfEdgeId,
+    position: Vec3,
+    surface_point: SurfacePoint,
+    limits: CollapseLimits,
+) -> bool {
     let gone = [Some(h.face()), mesh.topology.twin(h).map(HalfEdgeId::face)];
     let near = |p: Vec3| {
         [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
@@ -187,8 +195,8 @@ fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, lim
                 if n == other || mesh.chain(e).is_some() {
                     return true;
                 }
-                let start = match (place, mesh.place(n)) {
-                    (Place::Free(f), _) | (_, Place::Free(f)) => f,
+                let start = match (surface_point, mesh.surface_point(n)) {
+                    (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
                     _ => mesh.corner(e).triangle,
                 };
                 let middle = position.midpoint(mesh.position(n));

@@ -8,7 +8,6 @@
 use bevy_math::Vec3;
 
 use super::attributes::Attributes;
-use super::noise;
 use super::topology::Topology;
 use crate::{
     film::{FaceId, HalfEdgeId},
@@ -96,9 +95,7 @@ impl Features {
             kinds[h.index()] = kind;
             kinds[t.index()] = kind;
         }
-        let mut features = Self { kinds };
-        noise::drop_noise(&mut features, topology, positions, target);
-        features
+        Self { kinds }
     }
 
     #[inline]

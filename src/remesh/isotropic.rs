@@ -9,12 +9,12 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::{
-    MAX_FILM_TRIANGLES,
     collapse::{self, CollapseLimits},
-    film::BuiltFilm,
+    film::{BuiltFilm, MAX_FILM_TRIANGLES},
     flip, polish,
     reference::Reference,
     relax::{self, Relaxation},
+    resolution::Target,
     sites,
     split::{self, SplitLimits},
     work_mesh::WorkMesh,
@@ -52,15 +52,6 @@ const ADJUSTMENT: f32 = 2.0;
 /// Counts up to this share above the target are met; a target edge length fixes the count less sharply.
 const COUNT_TOLERANCE: f64 = 0.05;
 const LENGTH_TOLERANCE: f64 = 0.25;
-
-/// What to remesh to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Target {
-    /// This many triangles.
-    Count(u32),
-    /// This edge length.
-    Length(f32),
-}
 
 /// Side of the equilateral triangle of this area.
 pub(super) fn edge_of_area(area: f64) -> f32 {

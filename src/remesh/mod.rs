@@ -18,6 +18,7 @@ mod polish;
 mod project;
 mod reference;
 mod relax;
+mod resolution;
 pub mod sample;
 mod sites;
 mod split;
@@ -26,12 +27,10 @@ mod tests;
 mod topology;
 mod work_mesh;
 
-pub use film::{BuiltFilm, FilmResolution};
+pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
+pub use resolution::FilmResolution;
 
 use crate::surface::{BuildError, Surface, clean};
-
-/// Most triangles a film may have: 4 million, 400 times what a film of good looks needs.
-pub const MAX_FILM_TRIANGLES: usize = 1 << 22;
 
 /// Builds the film of a surface: cleans it, remeshes it to the resolution (or keeps it), and finds where each
 /// corner of the film lies on the surface. The seed draws the remeshing's irregularity; the same input and seed

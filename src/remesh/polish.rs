@@ -5,7 +5,7 @@ use bevy_math::Vec3;
 use super::collapse::{CollapseLimits, try_collapse};
 use super::flip::flip_closely;
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh, quality};
+use super::work_mesh::{SurfacePoint, WorkMesh, quality};
 use crate::film::{FaceId, VertexId};
 
 /// Faces below this quality are worked on: least angles under about 30 degrees.
@@ -66,33 +66,35 @@ fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32, limit: f32) {
     let mut stray = limit.max(mesh.stray_around(v));
     let reference = mesh.reference;
     for step in STEPS.map(|s| s * edge) {
-        let trials: Vec<(Vec3, Place)> = match mesh.place(v) {
-            Place::Fixed(_) => return,
-            Place::Line { chain, s } => {
+        let trials: Vec<(Vec3, SurfacePoint)> = match mesh.surface_point(v) {
+            SurfacePoint::Fixed(_) => return,
+            SurfacePoint::Line { chain, s } => {
                 let mut ends = super::collapse::chain_neighbours(mesh, v, chain).map(|n| mesh.arc_length(n, chain));
                 let (Some(a), Some(b)) = (ends.next(), ends.next()) else { return };
                 let margin = 0.2 * (a - b).abs();
                 [s - step, s + step]
                     .into_iter()
                     .filter(|&s| s > a.min(b) + margin && s < a.max(b) - margin)
-                    .map(|s| (reference.chains.position(reference.positions, chain, s), Place::Line { chain, s }))
+                    .map(|s| {
+                        (reference.chains.position(reference.positions, chain, s), SurfacePoint::Line { chain, s })
+                    })
                     .collect()
             }
-            Place::Free(start) => {
+            SurfacePoint::Free(start) => {
                 let normal: Vec3 = mesh.topology.faces_around(v).map(|f| mesh.area_vector(f)).sum();
                 let Some(normal) = normal.try_normalize() else { return };
                 let (x, y) = normal.any_orthonormal_pair();
                 DIRECTIONS
                     .map(|(i, j)| project(reference, mesh.position(v) + (x * i + y * j) * step, start))
-                    .map(|foot| (foot.position, Place::Free(foot.triangle)))
+                    .map(|foot| (foot.position, SurfacePoint::Free(foot.triangle)))
                     .into()
             }
         };
-        for (position, place) in trials {
+        for (position, surface_point) in trials {
             if let Some(quality) = mesh.quality_at(v, position, [None, None])
                 && quality > best
             {
-                let mut other = (position, place);
+                let mut other = (position, surface_point);
                 mesh.exchange(v, &mut other);
                 let strays = mesh.stray_around(v);
                 if strays <= stray {

@@ -4,6 +4,7 @@ use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
 use super::features::Features;
+use super::noise::drop_noise;
 use super::topology::Topology;
 use crate::{
     film::HalfEdgeId,
@@ -36,7 +37,8 @@ impl<'a> Reference<'a> {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        let mut features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        drop_noise(&mut features, &topology, positions, target);
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::collapse::chain_neighbours;
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::VertexId;
 
 #[derive(Clone, Copy, Debug)]
@@ -30,10 +30,10 @@ pub(super) fn relax(mesh: &mut WorkMesh, settings: Relaxation, rng: &mut ChaCha8
         if mesh.topology.outgoing(v).is_none() {
             continue;
         }
-        match mesh.place(v) {
-            Place::Fixed(_) => {}
-            Place::Line { chain, s } => relax_on_line(mesh, v, chain, s, settings, rng),
-            Place::Free(_) => relax_on_patch(mesh, v, settings, rng),
+        match mesh.surface_point(v) {
+            SurfacePoint::Fixed(_) => {}
+            SurfacePoint::Line { chain, s } => relax_on_line(mesh, v, chain, s, settings, rng),
+            SurfacePoint::Free(_) => relax_on_patch(mesh, v, settings, rng),
         }
     }
 }
@@ -56,14 +56,14 @@ fn relax_on_line(mesh: &mut WorkMesh, v: VertexId, chain: u32, s: f32, settings:
             continue;
         }
         let position = reference.chains.position(reference.positions, chain, moved);
-        if accept(mesh, v, position, Place::Line { chain, s: moved }, settings) {
+        if accept(mesh, v, position, SurfacePoint::Line { chain, s: moved }, settings) {
             return;
         }
     }
 }
 
 fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &mut ChaCha8Rng) {
-    let Place::Free(start) = mesh.place(v) else { return };
+    let SurfacePoint::Free(start) = mesh.surface_point(v) else { return };
     let here = mesh.position(v);
     let (mut middle, mut weight, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
     for f in mesh.topology.faces_around(v) {
@@ -84,7 +84,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
     let wanted = wanted - normal * normal.dot(wanted);
     for step in [1.0, 0.5, 0.25] {
         let foot = project(mesh.reference, here + wanted * step, start);
-        if accept(mesh, v, foot.position, Place::Free(foot.triangle), settings) {
+        if accept(mesh, v, foot.position, SurfacePoint::Free(foot.triangle), settings) {
             return;
         }
     }
@@ -92,7 +92,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
 
 /// Moves the vertex unless a face folds, the worst face gets worse, or an edge comes to cut through a bend of the
 /// surface.
-fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settings: Relaxation) -> bool {
+fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, surface_point: SurfacePoint, settings: Relaxation) -> bool {
     let fits = mesh
         .quality_at(v, position, [None, None])
         .is_some_and(|quality| quality >= settings.quality || quality >= mesh.quality(v));
@@ -100,7 +100,7 @@ fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settin
         return false;
     }
     let was_bent = mesh.is_bent(v);
-    let mut other = (position, place);
+    let mut other = (position, surface_point);
     mesh.exchange(v, &mut other);
     if !was_bent && !mesh.is_bent(v) {
         return true;

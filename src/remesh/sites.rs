@@ -1,8 +1,8 @@
 //! From the working mesh to the film: compact arrays, and where each corner lies on the prop's surface.
 
+use super::film::{BuiltFilm, MAX_FILM_TRIANGLES};
 use super::project::Foot;
 use super::work_mesh::WorkMesh;
-use super::{BuiltFilm, MAX_FILM_TRIANGLES};
 use crate::{
     film::VertexId,
     surface::{BuildError, CleanSurface, Surface, SurfaceSite},

@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// Share of a face's area that each half must have after a split.
@@ -80,7 +80,7 @@ fn split_all(
 /// too short to be cut, or the surface under it folds so that the new faces would.
 pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<VertexId> {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let (position, place) = match mesh.chain(h) {
+    let (position, surface_point) = match mesh.chain(h) {
         Some(chain) => {
             let (from, to) = (mesh.arc_length(a, chain), mesh.arc_length(b, chain));
             let s = from + (to - from) * cut;
@@ -88,12 +88,12 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
             if position == mesh.position(a) || position == mesh.position(b) {
                 return None;
             }
-            (position, Place::Line { chain, s })
+            (position, SurfacePoint::Line { chain, s })
         }
         None => foot_of_cut(mesh, h, cut)?,
     };
     let twin = mesh.topology.twin(h);
-    let m = mesh.add_vertex(position, place);
+    let m = mesh.add_vertex(position, surface_point);
     let beyond = cut_face(mesh, h, m);
     match twin {
         Some(t) => {
@@ -114,7 +114,7 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
 
 /// The place on the surface under a point of an edge. The walk there may be caught in a fold of the surface, so it is
 /// tried from all four corners around the edge and the nearest place taken that leaves proper faces.
-fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)> {
+fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, SurfacePoint)> {
     let twin = mesh.topology.twin(h);
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)].map(|v| mesh.position(v));
     let point = a.lerp(b, cut);
@@ -122,8 +122,8 @@ fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)
     corners
         .into_iter()
         .flatten()
-        .map(|corner| match mesh.place(mesh.topology.origin(corner)) {
-            Place::Free(triangle) => triangle,
+        .map(|corner| match mesh.surface_point(mesh.topology.origin(corner)) {
+            SurfacePoint::Free(triangle) => triangle,
             _ => mesh.corner(corner).triangle,
         })
         .map(|start| project(mesh.reference, point, start))
@@ -132,7 +132,7 @@ fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)
             stands(h) && twin.is_none_or(stands)
         })
         .min_by(|x, y| x.position.distance_squared(point).total_cmp(&y.position.distance_squared(point)))
-        .map(|foot| (foot.position, Place::Free(foot.triangle)))
+        .map(|foot| (foot.position, SurfacePoint::Free(foot.triangle)))
 }
 
 /// Whether the two halves of the face of `h`, cut to the point `m` near `h`, face its way and have some area.

@@ -10,7 +10,7 @@ use crate::film::{FaceId, HalfEdgeId, VertexId};
 
 /// How a vertex is bound to the clean surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
+pub(super) enum SurfacePoint {
     /// At a vertex of the clean mesh: it never moves.
     Fixed(VertexId),
     /// On a feature line at an arc length: it moves along the line.
@@ -23,7 +23,7 @@ pub(super) struct WorkMesh<'a> {
     pub reference: &'a Reference<'a>,
     pub topology: Topology,
     pub positions: Vec<Vec3>,
-    pub places: Vec<Place>,
+    pub surface_points: Vec<SurfacePoint>,
     /// The chain that each half-edge follows, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
     /// The patch that each face lies in.
@@ -34,17 +34,17 @@ impl<'a> WorkMesh<'a> {
     /// Starts from the clean mesh itself.
     pub fn new(reference: &'a Reference<'a>) -> Self {
         let topology = reference.topology.clone();
-        let mut places: Vec<Place> = (0..topology.vertex_slots())
+        let mut surface_points: Vec<SurfacePoint> = (0..topology.vertex_slots())
             .map(VertexId::new)
             .map(|v| match topology.outgoing(v) {
-                Some(h) if !reference.fixed[v.index()] => Place::Free(h.face()),
-                _ => Place::Fixed(v),
+                Some(h) if !reference.fixed[v.index()] => SurfacePoint::Free(h.face()),
+                _ => SurfacePoint::Fixed(v),
             })
             .collect();
         for chain in 0..reference.chains.count() {
             for (v, s) in reference.chains.points(chain) {
                 if !reference.fixed[v.index()] {
-                    places[v.index()] = Place::Line { chain, s };
+                    surface_points[v.index()] = SurfacePoint::Line { chain, s };
                 }
             }
         }
@@ -52,7 +52,7 @@ impl<'a> WorkMesh<'a> {
             reference,
             topology,
             positions: reference.positions.to_vec(),
-            places,
+            surface_points,
             chain_of: reference.chain_of.clone(),
             patches: reference.patches.clone(),
         }
@@ -64,8 +64,8 @@ impl<'a> WorkMesh<'a> {
     }
 
     #[inline]
-    pub fn place(&self, v: VertexId) -> Place {
-        self.places[v.index()]
+    pub fn surface_point(&self, v: VertexId) -> SurfacePoint {
+        self.surface_points[v.index()]
     }
 
     /// The chain that the edge follows, if it is a feature.
@@ -92,10 +92,10 @@ impl<'a> WorkMesh<'a> {
 
     /// Arc length of a vertex on a chain that passes or ends there.
     pub fn arc_length(&self, v: VertexId, chain: u32) -> f32 {
-        match self.place(v) {
-            Place::Line { s, .. } => s,
-            Place::Fixed(v) => self.reference.chains.end(chain, v),
-            Place::Free(_) => 0.0,
+        match self.surface_point(v) {
+            SurfacePoint::Line { s, .. } => s,
+            SurfacePoint::Fixed(v) => self.reference.chains.end(chain, v),
+            SurfacePoint::Free(_) => 0.0,
         }
     }
 
@@ -107,7 +107,7 @@ impl<'a> WorkMesh<'a> {
     pub fn corner(&self, h: HalfEdgeId) -> Foot {
         let v = self.topology.origin(h);
         let position = self.position(v);
-        if let Place::Free(start) = self.place(v) {
+        if let SurfacePoint::Free(start) = self.surface_point(v) {
             return project(self.reference, position, start);
         }
         let mut opening = h;
@@ -123,8 +123,8 @@ impl<'a> WorkMesh<'a> {
         });
         let Some(side) = side else {
             // A fixed vertex without features: an isolated one.
-            let start = match self.place(v) {
-                Place::Fixed(v) => self.reference.topology.outgoing(v).map(HalfEdgeId::face),
+            let start = match self.surface_point(v) {
+                SurfacePoint::Fixed(v) => self.reference.topology.outgoing(v).map(HalfEdgeId::face),
                 _ => None,
             };
             return project(self.reference, position, start.unwrap_or(FaceId(0)));
@@ -137,14 +137,14 @@ impl<'a> WorkMesh<'a> {
     }
 
     /// Adds a vertex; its connectivity is the caller's.
-    pub fn add_vertex(&mut self, position: Vec3, place: Place) -> VertexId {
+    pub fn add_vertex(&mut self, position: Vec3, surface_point: SurfacePoint) -> VertexId {
         let v = self.topology.add_vertex();
         if v.index() == self.positions.len() {
             self.positions.push(position);
-            self.places.push(place);
+            self.surface_points.push(surface_point);
         } else {
             self.positions[v.index()] = position;
-            self.places[v.index()] = place;
+            self.surface_points[v.index()] = surface_point;
         }
         v
     }
@@ -164,9 +164,9 @@ impl<'a> WorkMesh<'a> {
     }
 
     /// Moves a vertex and hands out where it was.
-    pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, Place)) {
+    pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, SurfacePoint)) {
         std::mem::swap(&mut self.positions[v.index()], &mut other.0);
-        std::mem::swap(&mut self.places[v.index()], &mut other.1);
+        std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
     /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
@@ -176,8 +176,8 @@ impl<'a> WorkMesh<'a> {
             return 0.0;
         }
         let (a, b) = (self.topology.origin(h), self.topology.target(h));
-        let start = match (self.place(a), self.place(b)) {
-            (Place::Free(f), _) | (_, Place::Free(f)) => f,
+        let start = match (self.surface_point(a), self.surface_point(b)) {
+            (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
             _ => self.corner(h).triangle,
         };
         self.stray_at(self.position(a).midpoint(self.position(b)), start)

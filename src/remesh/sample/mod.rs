@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use bevy_math::{DVec2, Vec2, Vec3, ops};
 
 use crate::{
-    remesh::BuiltFilm,
+    remesh::film::BuiltFilm,
     surface::{BuildError, Surface, SurfaceSite},
 };
 use outline::Outline;
