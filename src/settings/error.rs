@@ -2,20 +2,20 @@
 
 use std::fmt;
 
-use super::Range;
+use super::range::Range;
 
 /// Why settings were refused: what is wrong and, if they were read from a file, where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct SettingsError {
     /// Where in which file; `None` for settings that were not read from text.
-    pub place: Option<Place>,
+    pub position: Option<TextPosition>,
     /// What is wrong.
     pub kind: SettingsErrorKind,
 }
 
 /// A place in a settings file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct TextPosition {
     /// Name of the file, as it was given to the reader.
     pub file: String,
     /// Line, from 1.
@@ -83,14 +83,14 @@ impl SettingsErrorKind {
 
 impl From<SettingsErrorKind> for SettingsError {
     fn from(kind: SettingsErrorKind) -> Self {
-        Self { place: None, kind }
+        Self { position: None, kind }
     }
 }
 
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.place {
-            Some(Place { file, line, column }) => write!(f, "{file}:{line}:{column}: {}", self.kind),
+        match &self.position {
+            Some(TextPosition { file, line, column }) => write!(f, "{file}:{line}:{column}: {}", self.kind),
             None => self.kind.fmt(f),
         }
     }

@@ -22,14 +22,18 @@ pub(crate) mod asset;
 mod error;
 mod field;
 mod presets;
+mod range;
 mod read;
+mod rows;
 mod stages;
+mod table;
 #[cfg(test)]
 mod tests;
 
-pub use error::{Place, SettingsError, SettingsErrorKind};
-pub use field::{Field, Range};
+pub use error::{SettingsError, SettingsErrorKind, TextPosition};
+pub use field::Field;
 pub use presets::Preset;
+pub use range::Range;
 pub use stages::{
     AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
     StrippingSettings, TearingSettings,
@@ -38,7 +42,7 @@ pub use stages::{
 impl CoatingSettings {
     /// Every setting, in the order of the structs.
     pub fn fields() -> impl Iterator<Item = &'static Field> {
-        stages::STAGES.iter().flat_map(|stage| stage.fields)
+        rows::STAGES.iter().flat_map(|stage| stage.fields)
     }
 
     /// Checks every setting against its range.

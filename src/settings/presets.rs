@@ -2,7 +2,10 @@
 
 use std::{fmt, str::FromStr};
 
-use super::{CoatingSettings, SettingsError, SettingsErrorKind};
+use super::{
+    error::{SettingsError, SettingsErrorKind},
+    stages::CoatingSettings,
+};
 
 /// Settings that come with the crate. Each is a file of `assets/presets` that is built into it.
 ///

@@ -10,8 +10,10 @@ use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
 use super::{
-    CoatingSettings, Field, Place, SettingsError, SettingsErrorKind,
-    stages::{STAGE_NAMES, STAGES, Stage},
+    error::{SettingsError, SettingsErrorKind, TextPosition},
+    field::Field,
+    rows::{STAGE_NAMES, STAGES, Stage},
+    stages::CoatingSettings,
 };
 
 impl CoatingSettings {
@@ -24,7 +26,11 @@ impl CoatingSettings {
     pub fn from_ron(text: &str, file: &str) -> Result<Self, SettingsError> {
         let mut fault = None;
         ron::Options::default().from_str_seed(text, SettingsSeed { fault: &mut fault }).map_err(|error| SettingsError {
-            place: Some(Place { file: file.into(), line: error.span.start.line, column: error.span.start.col }),
+            position: Some(TextPosition {
+                file: file.into(),
+                line: error.span.start.line,
+                column: error.span.start.col,
+            }),
             kind: fault.unwrap_or_else(|| SettingsErrorKind::Syntax(error.code.to_string())),
         })
     }

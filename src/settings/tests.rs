@@ -165,7 +165,7 @@ fn refusals_of_a_file_name_file_place_setting_and_range() {
         assert_eq!(refusal(text).to_string(), message, "{text}");
     }
     for broken in ["", "(", "(tearing", "(tearing:", "(tearing: (beta:", "\u{0}", "(tearing: 3)", "((((((((", "{}"] {
-        assert_eq!(refusal(broken).place.unwrap().file, "barrel.coating.ron", "{broken}");
+        assert_eq!(refusal(broken).position.unwrap().file, "barrel.coating.ron", "{broken}");
     }
 }
 
