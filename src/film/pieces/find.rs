@@ -7,8 +7,23 @@ use super::{
 use crate::film::{handles::VertexId, topology::Topology};
 
 impl LoosePieces {
-    /// Finds all pieces anew and keeps the loose ones. Gives the number of pieces, attached ones included. Takes time
-    /// proportional to the film's size.
+    /// Searches the whole film and replaces the list by the loose pieces found. Returns the number of all pieces,
+    /// including attached ones.
+    ///
+    /// `is_attached` says whether a vertex is attached to the metal. The time is proportional to the size of the film.
+    ///
+    /// ```
+    /// use bevy_coating::film::{HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId};
+    ///
+    /// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
+    /// topology.tear(HalfEdgeId(2), |_, _, _| true);
+    ///
+    /// // Only vertex 3 is attached: the face without it is loose.
+    /// let mut loose = LoosePieces::default();
+    /// let pieces = loose.find(&topology, &mut PieceScratch::default(), |v| v == VertexId(3));
+    /// assert_eq!((pieces, loose.len(), loose.smallest()), (2, 1, Some(1)));
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn find(
         &mut self,
         topology: &Topology,
@@ -31,7 +46,7 @@ impl LoosePieces {
         pieces
     }
 
-    /// Takes pieces whose faces have been removed off the list.
+    /// Drops the pieces whose faces have been removed from the list.
     pub fn retain_live(&mut self, topology: &Topology, scratch: &mut PieceScratch) {
         let ListScratch { order, .. } = &mut scratch.lists;
         order.clear();
