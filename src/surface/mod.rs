@@ -1,8 +1,12 @@
-//! The prop's own surface: plain arrays of triangles, and how they become an oriented manifold (VC 3.3).
+//! The prop's own surface as plain arrays of triangles, and the cleaning that makes an oriented manifold of it (VC
+//! 3.3).
 //!
 //! ```text
 //! Surface --clean--> CleanSurface
 //! ```
+//!
+//! An oriented manifold is a surface on which every edge has one face, or two that run along it in opposite directions,
+//! and the faces of every vertex form one fan.
 
 mod clean;
 mod error;

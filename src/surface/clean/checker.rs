@@ -1,4 +1,4 @@
-//! What a clean surface promises, checked without any of the code that makes it.
+//! Checks every promise of a clean surface, without any of the code that makes one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use bevy_math::Vec3;
 use super::clean_surface::CleanSurface;
 use crate::surface::prop_surface::Surface;
 
-/// Panics with the promise that is broken.
+/// Checks every promise, and panics with the one that is broken.
 pub(super) fn check(surface: &Surface, clean: &CleanSurface) {
     let count = clean.triangles.len();
     assert!(count > 0);

@@ -4,26 +4,28 @@ use bevy_math::Vec3;
 
 use crate::surface::{prop_surface::SurfaceSite, warning::BuildWarning};
 
-/// A surface made an oriented manifold: every edge has one face, or two that run along it in opposite
-/// directions, and the faces of every vertex form one fan.
+/// Surface that is an oriented manifold: every edge has one face, or two that run along it in opposite directions, and
+/// the faces of every vertex form one fan. Made by [`clean`](crate::surface::clean).
+///
+/// All lists but `positions` and `warnings` hold one entry for each triangle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CleanSurface {
-    /// Vertex positions: the surface's own, welded, in the order of their first use by index; duplicates made
-    /// by splitting come last. Every vertex is used.
+    /// Positions of the vertices: those of the surface after welding, in the order of their indices there. Duplicates
+    /// made by splitting come last. Every vertex is used by a triangle.
     pub positions: Vec<Vec3>,
-    /// Vertex indices of each triangle.
+    /// Vertex indices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// For each corner of each triangle, the corner `3 * t + k` of the surface whose attributes it has. All
-    /// three belong to the triangle's [`source`](Self::source), except at a vertex that ended a T-junction:
-    /// there it is the corner of the dissolved triangle that had filled the junction.
+    /// Surface corners whose attributes the triangle's corners have: `3 * t + k` for corner `k` of the surface's
+    /// triangle `t`. All three belong to the triangle's [`source`](Self::source). The exception is a corner at a former
+    /// T-junction, which has the corner of the dissolved triangle that filled the junction.
     pub corners: Vec<[u32; 3]>,
-    /// Where each corner of each triangle lies on the surface, always on its [`source`](Self::source). The
-    /// weights are a unit vector except at a vertex that ended a T-junction.
+    /// Points of the surface at which the triangle's corners lie, always on its [`source`](Self::source). A corner of
+    /// the source has weight 1 for that corner; only a corner at a former T-junction lies between two of them.
     pub sites: Vec<[SurfaceSite; 3]>,
-    /// The surface's triangle that each triangle is, or is a part of.
+    /// Triangle of the surface that the triangle is, or is a part of.
     pub source: Vec<u32>,
-    /// Whether the triangle's winding is opposite to its source's.
+    /// Whether the triangle has the opposite winding of its source.
     pub flipped: Vec<bool>,
-    /// What was put right.
+    /// Repairs that were made.
     pub warnings: Vec<BuildWarning>,
 }

@@ -2,24 +2,24 @@
 
 use bevy_math::{DVec3, Vec3};
 
-/// The index of no vertex or half-edge.
+/// Index of no vertex or half-edge.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// One triangle on its way through the stages.
+/// Triangle of the surface, or a part of one, as the stages of cleaning pass it on.
 #[derive(Clone, Debug)]
 pub(super) struct Face {
-    /// Welded vertices.
+    /// Indices of the welded vertices.
     pub vertices: [u32; 3],
-    /// Surface corners, see [`CleanSurface::corners`].
+    /// Surface corners of the face: see `CleanSurface::corners`.
     pub corners: [u32; 3],
-    /// Weights in the source triangle.
+    /// Barycentric weights of each corner in the source triangle.
     pub weights: [Vec3; 3],
     pub source: u32,
     pub flipped: bool,
 }
 
 impl Face {
-    /// Reverses the winding; half-edges 0 and 2 change places.
+    /// Reverses the winding. Half-edges 0 and 2 change places.
     pub fn turn(&mut self) {
         self.vertices.swap(1, 2);
         self.corners.swap(1, 2);
@@ -32,6 +32,7 @@ impl Face {
     }
 }
 
+/// Returns whether two of the three vertices are the same.
 pub(super) fn has_repeats([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }

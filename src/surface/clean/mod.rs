@@ -1,25 +1,26 @@
-//! Cleaning: whatever triangles a prop has become an oriented manifold (VC 3.3 needs a half-edge mesh, and
-//! game props are rarely one).
+//! Cleaning: makes an oriented manifold of any triangles. The method needs a half-edge mesh (VC 3.3), and props of
+//! games are rarely fit to be one.
 //!
 //! ```text
 //! Surface --validate--> --weld--> --drop duplicates--> --dissolve slivers--> faces over shared vertices
 //!         --pair faces along edges--> --unify winding--> --split fans--> CleanSurface
 //! ```
 //!
-//! Nothing is refused for its shape. What cannot be one manifold becomes several that touch: a closed cut is
-//! invisible in the film at rest, and paint does not know about it.
+//! No surface is refused for its shape. A surface that cannot be one manifold becomes several that touch. The cuts
+//! between them stay closed and so are invisible while the film is at rest.
 //!
 //! - **Welding** merges vertices closer than 1e-5 of the bounding box's diagonal, but never vertices further
 //!   apart than a tenth of the shortest edge at either, so that thin sheets and small details survive.
-//! - **Triangles without area** are dissolved, not just dropped: exporters fill T-junctions with them, and
-//!   dropping one would open the surface along its long edge.
-//! - **Duplicates** with the same winding are dropped, the first is kept. Two triangles on the same vertices
-//!   with *opposite* winding are the two sides of a sheet that was modelled twice: both are kept, as two
-//!   sheets that are never joined to each other, so each side keeps its own texture and its own paint.
-//! - **Edges with more than two faces** keep the pairs that continue most smoothly; other faces get a border.
-//! - **Winding** is unified over each shell. The winding of the larger area wins, so outside stays outside.
-//!   A one-sided shell (Möbius) is cut where its two sides meet.
-//! - **Vertices** where several fans of faces meet get one duplicate for each further fan.
+//! - **Triangles without area** are dissolved into their neighbours. Exporters fill T-junctions with them, so dropping
+//!   one would open the surface along its long edge.
+//! - **Duplicates** with the same winding are dropped, and the first is kept. Two triangles on the same vertices with
+//!   *opposite* winding are the two sides of a sheet that was modelled twice. Both are kept and never joined to each
+//!   other, so each side has its own texture and its own paint.
+//! - **Edges with more than two faces** join the pairs of faces that continue most smoothly. The other faces get a
+//!   border there.
+//! - **Winding** is unified over each shell: the winding of the larger area is kept. A one-sided shell (a Moebius band)
+//!   is cut where its two sides meet.
+//! - **Vertices** at which several fans of faces meet get a duplicate for each fan but the first.
 
 mod clean_surface;
 mod duplicates;
@@ -48,13 +49,31 @@ use face::{Face, NONE, has_repeats};
 pub use clean_surface::CleanSurface;
 pub use pair::twins;
 
-/// Cleans a surface.
+/// Cleans a surface: welds its vertices, repairs it and turns its triangles, so that it becomes an oriented manifold.
 ///
-/// Deterministic, O(n log n). Positions may have any magnitude; all decisions are made in double precision.
+/// The same surface always gives the same result. The time is O(n log n) in the number of triangles. Positions may have
+/// any magnitude, since all decisions are made in double precision.
 ///
 /// # Errors
-/// [`BuildError`] when there are no triangles or too many, an attribute has the wrong length, a triangle
-/// refers to a vertex that does not exist or is not finite, or no triangle has any area.
+/// [`BuildError`] if there are no triangles or too many (above `u32::MAX / 8`), an attribute has the wrong length, a
+/// triangle refers to a vertex that does not exist or is not finite, or no triangle has any area.
+///
+/// ```
+/// use bevy_coating::surface::{Surface, clean};
+/// use bevy_math::Vec3;
+///
+/// // Two triangles of a square that do not share their vertices, as exporters write them.
+/// let (a, b, c, d) = (Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y);
+/// let surface = Surface {
+///     positions: vec![a, b, c, a, c, d],
+///     triangles: vec![[0, 1, 2], [3, 4, 5]],
+///     ..Surface::default()
+/// };
+/// let clean = clean(&surface)?;
+/// assert_eq!(clean.positions.len(), 4, "welded");
+/// assert_eq!(clean.triangles.len(), 2);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
     validate::validate(surface)?;
     let welded = weld::weld(surface);
@@ -82,8 +101,8 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
         return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });
     }
 
-    // Windings are unified over the manifold parts first: pairing faces along edges with more than two of
-    // them relies on windings.
+    // Windings are unified over the manifold parts first, because the pairing of faces along edges with more
+    // than two of them relies on windings.
     let edges = pair::Edges::new(&faces);
     let mut twin = edges.pair_manifold(&faces);
     let mut cut = orient::unify(&mut faces, &mut twin, &positions);
