@@ -1,4 +1,4 @@
-//! Edge collapses.
+//! Collapses edges.
 
 use bevy_math::Vec3;
 
@@ -6,20 +6,20 @@ use super::project::{distance_to_triangle, project};
 use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::{HalfEdgeId, VertexId};
 
-/// What a collapse must respect.
+/// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CollapseLimits {
     /// Edges shorter than this are collapsed.
     pub shortest: f32,
     /// No edge may grow longer than this.
     pub longest: f32,
-    /// How far a feature edge may stray from its line.
+    /// Largest distance of a feature edge from its line.
     pub deviation: f32,
-    /// How far the middle of an edge may be from the surface.
+    /// Largest distance of the middle of an edge from the surface.
     pub stray: f32,
-    /// Faces may get as bad as this, or as the worst was before.
+    /// Least quality of the faces after the collapse, unless the worst face was below it before.
     pub quality: f32,
-    /// Stop at this many faces.
+    /// Number of faces at which collapsing stops.
     pub fewest_faces: usize,
 }
 
@@ -38,10 +38,10 @@ pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) 
     }
 }
 
-/// Where the two ends of an edge may meet.
+/// Position at which the two ends of an edge may meet.
 type Meeting = (Vec3, SurfacePoint);
 
-/// Collapses the edge if topology, features, size and shape allow it.
+/// Collapses the edge if topology, features, size and shape allow it, and returns whether it did.
 pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseLimits) -> bool {
     let meetings = meetings(mesh, h);
     if meetings[0].is_none() || !keeps_topology(mesh, h) {
@@ -61,8 +61,7 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
     false
 }
 
-/// The places to try, best first. It is always the target's id that stays; whose place it takes is all that
-/// matters.
+/// Returns the positions to try, best first. The target of `h` always keeps its id, even if it moves to the origin.
 fn meetings(mesh: &WorkMesh, h: HalfEdgeId) -> [Option<Meeting>; 3] {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let at = |v: VertexId| Some((mesh.position(v), mesh.surface_point(v)));
@@ -87,7 +86,8 @@ fn meetings(mesh: &WorkMesh, h: HalfEdgeId) -> [Option<Meeting>; 3] {
     }
 }
 
-/// The link condition and its kin: the collapse changes neither Euler number nor border loops.
+/// Returns whether the collapse changes neither the Euler number nor the number of borders (the link condition, also
+/// for borders).
 fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
     let topology = &mesh.topology;
     let (a, b) = (topology.origin(h), topology.target(h));
@@ -109,7 +109,7 @@ fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
     wings.into_iter().flatten().all(keeps_faces) && !ear(h) && !twin.is_some_and(ear)
 }
 
-/// Feature lines stay lines: none merge, and none strays from its course.
+/// Returns whether no two feature lines would merge and none would leave its course.
 fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, surface_point: SurfacePoint, limits: CollapseLimits) -> bool {
     for e in [Some(h), mesh.topology.twin(h)].into_iter().flatten() {
         // The two other edges of a vanishing face become one.
@@ -132,7 +132,7 @@ fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, surface_point: SurfacePoint, l
     })
 }
 
-/// The vertices before and after `v` on a chain.
+/// Iterates over the vertices before and after `v` on a chain.
 pub(super) fn chain_neighbours<'m>(mesh: &'m WorkMesh, v: VertexId, chain: u32) -> impl Iterator<Item = VertexId> + 'm {
     let topology = &mesh.topology;
     let leaving = topology.ring(v).filter(move |&h| mesh.chain(h) == Some(chain)).map(|h| topology.target(h));
@@ -144,7 +144,7 @@ pub(super) fn chain_neighbours<'m>(mesh: &'m WorkMesh, v: VertexId, chain: u32) 
     leaving.chain(arriving)
 }
 
-/// No face folds over, no edge grows too long, no face gets too thin.
+/// Returns whether no face would fold over or get too thin, and no edge would get too long.
 fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseLimits) -> bool {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let longest = limits.longest.max(mesh.length(h));
@@ -166,8 +166,8 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
     least >= limits.quality || least >= mesh.quality(a).min(mesh.quality(b))
 }
 
-/// No edge at the merged vertex cuts through a bend of the surface, and neither end is left far behind: it may have
-/// been the tip of a bump.
+/// Returns whether no edge at the merged vertex would cut through a bend of the surface, and both ends are still close
+/// to the new faces (an end may have been the tip of a bump).
 fn keeps_close(
     mesh: &WorkMesh,
     h: HalfEdgeId,
@@ -205,8 +205,8 @@ fn keeps_close(
     })
 }
 
-/// Merges the origin of `h` into its target, which is returned. The one or two faces at the edge and the origin
-/// die; all other ids stay.
+/// Merges the origin of `h` into its target, which is returned. The faces at the edge (one or two) and the origin are
+/// removed; all other ids stay.
 fn collapse(mesh: &mut WorkMesh, h: HalfEdgeId) -> VertexId {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let twin = mesh.topology.twin(h);

@@ -1,4 +1,4 @@
-//! Last repairs: the few thin faces that even relaxation leaves, at corners of features and in folds.
+//! Repairs the few thin faces that relaxation leaves at corners of features and in folds.
 
 use bevy_math::Vec3;
 
@@ -8,16 +8,16 @@ use super::project::project;
 use super::work_mesh::{SurfacePoint, WorkMesh, quality};
 use crate::film::{FaceId, VertexId};
 
-/// Faces below this quality are worked on: least angles under about 30 degrees.
+/// Quality below which a face is repaired: its least angle is below about 30 degrees.
 const THIN: f32 = 0.7;
 /// Lengths of the trial steps, as shares of the target edge.
 const STEPS: [f32; 3] = [0.2, 0.07, 0.025];
-/// Directions of the trial steps: around a circle by sixths.
+/// Directions of the trial steps: six around a circle.
 const DIRECTIONS: [(f32, f32); 6] =
     [(1.0, 0.0), (0.5, 0.866), (-0.5, 0.866), (-1.0, 0.0), (-0.5, -0.866), (0.5, -0.866)];
 
-/// Improves thin faces: first by flips and collapses, then by moving their vertices to wherever the worst face
-/// around them is best.
+/// Improves thin faces, first by flips and collapses, then by moving their vertices so that the worst face around each
+/// is as good as possible.
 pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
     for f in thin_faces(mesh) {
         if !mesh.topology.is_live(f) || quality_of(mesh, f) >= THIN {
@@ -53,14 +53,14 @@ fn quality_of(mesh: &WorkMesh, f: FaceId) -> f32 {
     quality(a, b, c)
 }
 
-/// Whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
+/// Returns whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
 fn raises_quality([a, b, c, d]: [Vec3; 4]) -> bool {
     let before = quality(a, b, c).min(quality(b, a, d));
     let after = quality(c, d, b).min(quality(d, c, a));
     after > before + 0.02
 }
 
-/// Moves a vertex by trial steps to where the worst face around it is best.
+/// Moves a vertex by trial steps so that the worst face around it is as good as possible.
 fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32, limit: f32) {
     let mut best = mesh.quality(v);
     let mut stray = limit.max(mesh.stray_around(v));

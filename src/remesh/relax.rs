@@ -1,5 +1,5 @@
-//! Tangential relaxation: vertices move towards the middle of their neighbours, along their line or over their
-//! patch, and are put back on the surface.
+//! Relaxes vertices tangentially: moves them towards the middle of their neighbours, along their feature line or over
+//! their patch, and projects them back onto the surface.
 
 use bevy_math::Vec3;
 use rand::RngExt;
@@ -10,17 +10,19 @@ use super::project::project;
 use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::VertexId;
 
+/// Parameters of one relaxation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relaxation {
-    /// Share of the way to the middle.
+    /// Share of the way to the middle that a vertex moves.
     pub step: f32,
-    /// Length of the random displacement added to it.
+    /// Largest length of the random displacement that is added, in each direction.
     pub jitter: f32,
-    /// How far a feature edge may stray from its line.
+    /// Largest distance of a feature edge from its line.
     pub deviation: f32,
-    /// How far the middle of an edge may be from the surface.
+    /// Largest distance of the middle of an edge from the surface.
     pub stray: f32,
-    /// Moves that leave no face worse than this are accepted; others must not make the worst face worse.
+    /// Quality that no face may fall below. A move after which a face does is accepted only if the worst face does not
+    /// get worse.
     pub quality: f32,
 }
 
@@ -70,7 +72,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
         let area_vector = mesh.area_vector(f);
         let area = area_vector.length();
         let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
-        // The two far corners only: with the near one the centroid would drag its feet.
+        // Only the mean of the two far corners, since the vertex itself would slow the centroid down.
         middle += (a + b + c - here) * (0.5 * area);
         weight += area;
         normal += area_vector;

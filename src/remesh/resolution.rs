@@ -1,8 +1,8 @@
-//! How fine a film is asked to be.
+//! The resolution that is asked of a film.
 
 use crate::surface::BuildError;
 
-/// How fine the film is.
+/// Resolution of a film: the size of its triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -11,16 +11,17 @@ use crate::surface::BuildError;
     type_path = "bevy_coating::remesh"
 )]
 pub enum FilmResolution {
-    /// Remesh to about this many triangles. At least 4.
+    /// Remesh to about this number of triangles, at least 4. Creases and seams may need more; the film then has a
+    /// warning.
     Triangles(u32),
-    /// Remesh to this edge length, in the surface's unit. Above 0.
+    /// Remesh to about this edge length, in the surface's unit, finite and above 0.
     EdgeLength(f32),
-    /// Use the mesh as it is, welded and cleaned.
+    /// Keep the triangles of the surface. They are only cleaned.
     Keep,
 }
 
 impl FilmResolution {
-    /// Checks the range. `None`: keep the mesh.
+    /// Checks the range and returns the target of remeshing, or `None` to keep the triangles.
     pub(super) fn target(self) -> Result<Option<Target>, BuildError> {
         let refuse = |found: String, range| Err(BuildError::Resolution { found, range });
         match self {
@@ -33,11 +34,11 @@ impl FilmResolution {
     }
 }
 
-/// What to remesh to.
+/// Target of remeshing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Target {
-    /// This many triangles.
+    /// Number of triangles.
     Count(u32),
-    /// This edge length.
+    /// Edge length, in the surface's unit.
     Length(f32),
 }

@@ -1,4 +1,4 @@
-//! The film while it is being remeshed: connectivity, positions, and where each vertex lies on the surface.
+//! The film while it is being remeshed: connectivity, positions, and the point of the surface under each vertex.
 
 use bevy_math::Vec3;
 
@@ -8,25 +8,26 @@ use super::reference::Reference;
 use super::topology::Topology;
 use crate::film::{FaceId, HalfEdgeId, VertexId};
 
-/// How a vertex is bound to the clean surface.
+/// Part of the clean surface on which a vertex of the film lies and may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum SurfacePoint {
-    /// At a vertex of the clean mesh: it never moves.
+    /// A vertex of the clean mesh. The film vertex never moves.
     Fixed(VertexId),
-    /// On a feature line at an arc length: it moves along the line.
+    /// A feature line, at the arc length `s`. The film vertex moves along the line.
     Line { chain: u32, s: f32 },
-    /// On a triangle: it moves over the patch.
+    /// A triangle. The film vertex moves over the patch of the triangle.
     Free(FaceId),
 }
 
+/// Film while it is being remeshed, over the surface onto which it is projected.
 pub(super) struct WorkMesh<'a> {
     pub reference: &'a Reference<'a>,
     pub topology: Topology,
     pub positions: Vec<Vec3>,
     pub surface_points: Vec<SurfacePoint>,
-    /// The chain that each half-edge follows, or [`NO_CHAIN`].
+    /// Chain that each half-edge follows, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
-    /// The patch that each face lies in.
+    /// Patch in which each face lies.
     pub patches: Vec<u32>,
 }
 
@@ -68,7 +69,7 @@ impl<'a> WorkMesh<'a> {
         self.surface_points[v.index()]
     }
 
-    /// The chain that the edge follows, if it is a feature.
+    /// Returns the chain that the edge follows, if it is a feature.
     #[inline]
     pub fn chain(&self, h: HalfEdgeId) -> Option<u32> {
         Some(self.chain_of[h.index()]).filter(|&c| c != NO_CHAIN)
@@ -83,14 +84,14 @@ impl<'a> WorkMesh<'a> {
         self.position(self.topology.origin(h)).distance(self.position(self.topology.target(h)))
     }
 
-    /// Twice the area of the face times its unit normal.
+    /// Returns the unit normal of the face times twice its area.
     #[inline]
     pub fn area_vector(&self, f: FaceId) -> Vec3 {
         let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
         (b - a).cross(c - a)
     }
 
-    /// Arc length of a vertex on a chain that passes or ends there.
+    /// Returns the arc length of a vertex on a chain that passes or ends there.
     pub fn arc_length(&self, v: VertexId, chain: u32) -> f32 {
         match self.surface_point(v) {
             SurfacePoint::Line { s, .. } => s,
@@ -99,11 +100,12 @@ impl<'a> WorkMesh<'a> {
         }
     }
 
-    /// The point of the surface under the face corner from which `h` leaves, on the face's own side of every
+    /// Returns the point of the surface under the corner of a face at which `h` starts, on the face's own side of every
     /// feature.
     ///
-    /// Turning clockwise about the vertex one meets the feature edge that opens the corner's sector; the film runs
-    /// the same way round as the surface, so the same side of the same chain opens the sector on the surface.
+    /// The features at a vertex divide the faces around it into sectors. A turn clockwise from `h` meets the feature
+    /// that begins the sector of the face. The film has the same orientation as the surface, so the same side of the
+    /// same chain begins that sector on the surface.
     pub fn corner(&self, h: HalfEdgeId) -> Foot {
         let v = self.topology.origin(h);
         let position = self.position(v);
@@ -136,7 +138,7 @@ impl<'a> WorkMesh<'a> {
         Foot { triangle: side.half_edge.face(), position, weights: Vec3::from_array(weights) }
     }
 
-    /// Adds a vertex; its connectivity is the caller's.
+    /// Adds a vertex. The caller must connect it.
     pub fn add_vertex(&mut self, position: Vec3, surface_point: SurfacePoint) -> VertexId {
         let v = self.topology.add_vertex();
         if v.index() == self.positions.len() {
@@ -163,14 +165,14 @@ impl<'a> WorkMesh<'a> {
         f
     }
 
-    /// Moves a vertex and hands out where it was.
+    /// Exchanges the position of a vertex and its part of the surface with `other`, so that the move can be undone.
     pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, SurfacePoint)) {
         std::mem::swap(&mut self.positions[v.index()], &mut other.0);
         std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
-    /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
-    /// their line.
+    /// Returns the distance of the middle of the edge `h` from the surface. It is 0 for feature edges, whose distance
+    /// from their line is measured instead.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {
         if self.chain(h).is_some() {
             return 0.0;
@@ -183,25 +185,25 @@ impl<'a> WorkMesh<'a> {
         self.stray_at(self.position(a).midpoint(self.position(b)), start)
     }
 
-    /// How far the edges at a vertex are from the surface at most.
+    /// Returns the largest distance of the edges at a vertex from the surface.
     pub fn stray_around(&self, v: VertexId) -> f32 {
         self.topology.ring(v).map(|h| self.stray(h)).fold(0.0, f32::max)
     }
 
-    /// Whether the faces at a vertex are far from coplanar.
+    /// Returns whether the faces at a vertex are far from coplanar.
     pub fn is_bent(&self, v: VertexId) -> bool {
         let normal: Vec3 = self.topology.faces_around(v).map(|f| self.area_vector(f)).sum();
         let normal = normal.normalize_or_zero();
         self.topology.faces_around(v).map(|f| self.area_vector(f)).any(|n| n.dot(normal) < BENT * n.length())
     }
 
-    /// Distance of `p` from the surface near the triangle `start`.
+    /// Returns the distance of `p` from the surface near the triangle `start`.
     pub fn stray_at(&self, p: Vec3, start: FaceId) -> f32 {
         project(self.reference, p, start).position.distance(p)
     }
 
-    /// Least quality of the faces at `v` if it stood at `p`, or `None` if one of them would fold over. Faces that
-    /// `skip` names are left out.
+    /// Returns the least quality of the faces at `v` if it were at `p`, or `None` if one of them would fold over. The
+    /// faces in `skip` are left out.
     pub fn quality_at(&self, v: VertexId, p: Vec3, skip: [Option<FaceId>; 2]) -> Option<f32> {
         let mut least = f32::MAX;
         for h in self.topology.ring(v) {
@@ -219,7 +221,7 @@ impl<'a> WorkMesh<'a> {
         Some(least)
     }
 
-    /// Least quality of the faces at `v`.
+    /// Returns the least quality of the faces at `v`.
     pub fn quality(&self, v: VertexId) -> f32 {
         self.topology
             .faces_around(v)
@@ -231,13 +233,14 @@ impl<'a> WorkMesh<'a> {
     }
 }
 
-/// Faces may not turn by more than this cosine in one edit: about 70 degrees.
+/// Cosine of the angle by which a face may turn in one edit: about 70 degrees.
 pub(super) const FOLD: f32 = 0.35;
 
-/// Faces whose normals are further apart than this from their mean (cosine of about 35 degrees) are bent.
+/// Cosine of the angle between a face and the mean normal above which the faces are bent: about 35 degrees.
 const BENT: f32 = 0.82;
 
-/// Shape of a triangle: 1 if equilateral, 0 if flat (area over the sum of squared sides).
+/// Returns the quality of a triangle, 1 if it is equilateral and 0 if it has no area: its area over the sum of its
+/// squared sides, scaled.
 pub(super) fn quality(a: Vec3, b: Vec3, c: Vec3) -> f32 {
     let sides = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
     if sides > 0.0 { 2.0 * 3.0_f32.sqrt() * (b - a).cross(c - a).length() / sides } else { 0.0 }
