@@ -1,30 +1,43 @@
-//! One row of the settings table: how a single setting is found, read, checked and written by its path.
+//! One row of the table of settings: the access to a single setting by its path.
 
 use super::{error::SettingsErrorKind, range::Range, stages::CoatingSettings};
 
-/// One setting, addressed by its path.
+/// Setting that is addressed by its path.
+///
+/// ```
+/// use bevy_coating::settings::CoatingSettings;
+///
+/// let alpha = CoatingSettings::fields().find(|field| field.path == "tearing.alpha").unwrap();
+/// let mut settings = CoatingSettings::default();
+/// assert_eq!(alpha.get(&settings), 0.45);
+/// alpha.set(&mut settings, 0.6)?;
+/// assert!(alpha.set(&mut settings, 1.0).is_err(), "the range is open");
+/// assert_eq!(settings.tearing.alpha, 0.6);
+/// # Ok::<(), bevy_coating::settings::SettingsErrorKind>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
-    /// Stage and name, like `tearing.alpha`.
+    /// Path of the setting: the name of its stage and its own name, like `tearing.alpha`.
     pub path: &'static str,
-    /// Meaning, unit and source: the field's documentation.
+    /// Documentation of the setting in Markdown: meaning, unit and source.
     pub doc: &'static str,
-    /// What the setting may be.
+    /// Range of the values that are allowed.
     pub range: Range,
     pub(super) get: fn(&CoatingSettings) -> f32,
     pub(super) set: fn(&mut CoatingSettings, f32),
 }
 
 impl Field {
-    /// The setting's value. Whole settings come as `f32` too: all that are in their range are exact in it.
+    /// Returns the value of the setting. Whole numbers are returned as `f32` too, which is exact for all in range.
     pub fn get(&self, settings: &CoatingSettings) -> f32 {
         (self.get)(settings)
     }
 
-    /// Sets the setting.
+    /// Sets the setting to `value`.
     ///
     /// # Errors
-    /// [`SettingsErrorKind::OutOfRange`]; nothing is changed then.
+    /// [`SettingsErrorKind::OutOfRange`] if `value` is not in the [range](Self::range). The settings are not changed
+    /// then.
     pub fn set(&self, settings: &mut CoatingSettings, value: f32) -> Result<(), SettingsErrorKind> {
         self.check(value)?;
         (self.set)(settings, value);

@@ -2,7 +2,7 @@
 
 use super::{field::Field, range::Range, table::with_stages};
 
-/// A row's range.
+/// Makes the range of a row.
 macro_rules! range {
     (closed, $min:expr, $max:expr, $type:ty) => {
         Range { min: $min, max: $max, open: false, whole: <$type as Number>::WHOLE }
@@ -20,8 +20,10 @@ macro_rules! define_rows {
             $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, $ends:ident($min:expr, $max:expr);)+
         }
     )+) => {
+        /// Names of the stages, in the order of the structs.
         pub(super) const STAGE_NAMES: &[&str] = &[$(stringify!($stage)),+];
 
+        /// Rows of all stages, in the order of the structs.
         pub(super) const STAGES: &[Stage] = &[$(Stage {
             name: stringify!($stage),
             type_name: stringify!($Settings),
@@ -37,16 +39,16 @@ macro_rules! define_rows {
     };
 }
 
-/// One group of settings.
+/// Settings of one stage.
 pub(super) struct Stage {
     pub name: &'static str,
-    /// Name of the group's struct.
+    /// Name of the stage's struct.
     pub type_name: &'static str,
     pub field_names: &'static [&'static str],
     pub fields: &'static [Field],
 }
 
-/// The types a setting can have.
+/// Type that a setting can have.
 trait Number: Copy {
     const WHOLE: bool;
     fn to_f32(self) -> f32;

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::table::with_stages;
 
-/// A row's range in words, for the documentation.
+/// Makes the range of a row in words, for the documentation.
 macro_rules! range_in_words {
     (closed, $min:expr, $max:expr) => {
         concat!(stringify!($min), " to ", stringify!($max))
@@ -24,11 +24,24 @@ macro_rules! define_structs {
             $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, $ends:ident($min:expr, $max:expr);)+
         }
     )+) => {
-        /// All settings of a coating, one struct a stage.
+        /// Settings of a coating, one struct for each stage.
         ///
-        /// The defaults are those with which the method was tried out on plates, a curved plate, a vase and the
-        /// Stanford bunny. Reading checks names and ranges; after changing fields by hand, call
-        /// [`CoatingSettings::validate`].
+        /// The defaults were found by trial on plates, a curved plate, a vase and the Stanford bunny. Reading checks
+        /// names and ranges. After changing fields in code, call [`CoatingSettings::validate`].
+        ///
+        /// Lengths are in mean film edges unless a setting says metres. Forces are in units of the initial contraction
+        /// (VC's T). Angles are in radians. Rates are per unit age: age 0 is fresh, and age 1 is the end of the paper's
+        /// reference run.
+        ///
+        /// ```
+        /// use bevy_coating::settings::CoatingSettings;
+        ///
+        /// let mut settings = CoatingSettings::default();
+        /// settings.adhesion.mean = 1.9;
+        /// settings.stripping.fall_faces = 12;
+        /// settings.validate()?;
+        /// # Ok::<(), bevy_coating::settings::SettingsError>(())
+        /// ```
         #[derive(Clone, Debug, Default, PartialEq, Serialize)]
         #[cfg_attr(
             feature = "plugin",

@@ -197,7 +197,7 @@ fn settings_survive_every_kind_of_format() {
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     // As formats without names do.
     let rows: Vec<Vec<f32>> =
-        stages::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
+        rows::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
     let text = serde_json::to_string(&rows).unwrap();
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     assert!(serde_json::from_str::<CoatingSettings>("[[1.0]]").is_err(), "too short");
