@@ -48,7 +48,7 @@ impl CoatingSettings {
     /// for field in CoatingSettings::fields() {
     ///     println!("{} = {} ({})", field.path, field.get(&defaults), field.range);
     /// }
-    /// # assert!(CoatingSettings::fields().count() > 40);
+    /// # assert!(CoatingSettings::fields().count() > 30);
     /// ```
     pub fn fields() -> impl Iterator<Item = &'static Field> {
         rows::STAGES.iter().flat_map(|stage| stage.fields)
