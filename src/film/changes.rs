@@ -1,44 +1,61 @@
-//! What one step has changed: written by the fracture stages, read by the stages after them and by display.
+//! The record of one step: the fracture stages write it, the stages after them and the display read it.
 
 use bevy_math::Vec3;
 
-use super::{FaceId, HalfEdgeId, TearEnd, VertexId};
+use super::{
+    edit::TearEnd,
+    handles::{FaceId, HalfEdgeId, VertexId},
+};
 
-/// A piece of film that fell in this step.
+/// A piece of film that fell off in one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Debris {
-    /// Mean of the piece's corners when it fell, in the film's space.
+    /// Mean position of the corners of the piece's faces when it fell, in the film's space.
     pub position: Vec3,
-    /// Mean of the face normals, weighted by area; unit length, or zero for a piece folded onto itself.
+    /// Mean normal of the piece's faces, weighted by area. It has unit length, or is zero if the normals cancel out.
     pub normal: Vec3,
-    /// Area of the piece at rest.
+    /// Rest area of the piece, in square units of the film's space.
     pub area: f32,
-    /// Number of faces.
+    /// Number of faces of the piece.
     pub faces: u32,
 }
 
-/// Changes of one step, in the order they happened. Cleared at the start of each step; the buffers are kept.
+/// Changes of one step. Each list is in the order in which its changes happened.
+///
+/// The record is cleared at the start of each step.
+///
+/// ```
+/// use bevy_coating::film::{FilmChanges, VertexId};
+///
+/// let mut changes = FilmChanges::default();
+/// assert!(!changes.fractured());
+/// changes.separated.push(VertexId(3));
+/// assert!(changes.fractured());
+/// changes.clear();
+/// assert_eq!(changes, FilmChanges::default());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmChanges {
-    /// Vertices that separated.
+    /// Vertices that separated from the metal (VC 5.1).
     pub separated: Vec<VertexId>,
-    /// One half-edge of each edge that tore.
+    /// Edges that tore (VC 5.2), one half-edge for each.
     pub torn: Vec<HalfEdgeId>,
-    /// What each of these tears did at the origin and the target of its half-edge.
+    /// Ends of the torn edges, one entry for each of [`torn`](Self::torn): the effect of the tear on the origin and on
+    /// the target of its half-edge.
     pub torn_ends: Vec<[TearEnd; 2]>,
-    /// Vertices that tearing appended.
+    /// Vertices that tearing added, duplicates of the vertices at which fans of faces parted.
     pub duplicates: Vec<VertexId>,
-    /// Faces that were stripped or fell.
+    /// Faces that were stripped (VC 5.3) or fell with a loose piece.
     pub removed: Vec<FaceId>,
-    /// Pieces that fell: stripped faces and loose pieces.
+    /// Pieces that fell: each stripped face by itself, and loose pieces.
     pub debris: Vec<Debris>,
-    /// Whether any vertex may have moved.
+    /// Whether any vertex may have moved in this step.
     pub moved: bool,
 }
 
 impl FilmChanges {
-    /// Forgets everything, keeping the buffers.
+    /// Empties the record. The memory of the lists is kept for the next step.
     pub fn clear(&mut self) {
         self.separated.clear();
         self.torn.clear();
@@ -49,7 +66,8 @@ impl FilmChanges {
         self.moved = false;
     }
 
-    /// Whether connectivity or the state of a vertex changed, so that constraints and pieces must follow.
+    /// Returns whether a vertex separated, an edge tore or a face was removed. Constraints and pieces must then be
+    /// brought up to date.
     pub fn fractured(&self) -> bool {
         !(self.separated.is_empty() && self.torn.is_empty() && self.removed.is_empty())
     }

@@ -1,30 +1,48 @@
 //! Edits of the film: tear with fan split (VC 5.2), strip (VC 5.3).
 //!
-//! No edit moves or renumbers anything: tearing switches a flag and may append duplicates of vertices,
-//! removing faces switches them off.
+//! No edit moves a vertex or renumbers an element. Tearing sets a flag and may append duplicates of vertices; removing
+//! a face marks it as removed.
 
-use super::{FaceFate, FaceId, HalfEdgeId, Topology, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::{FaceFate, Fan, Topology},
+};
 
-/// What a tear did to one end of the torn edge.
+/// Effect of a tear on the vertex at one end of the torn edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TearEnd {
-    /// The closed fan at an interior vertex opened: the vertex is now the tip of a crack.
+    /// The faces went all the way round the vertex and now form one open fan: the vertex is the tip of a crack.
     Opened(VertexId),
-    /// An open fan fell into two: a junction, or a vertex on the border.
+    /// The faces formed an open fan (at a junction of cracks, or on the border) and now form two fans.
     Split {
-        /// Keeps its id and the fan that the caller chose.
+        /// Vertex that was there before. It keeps its id and the fan that the caller of [`Topology::tear`] chose.
         kept: VertexId,
-        /// The new vertex of the other fan: the highest id there is.
+        /// New vertex of the other fan. Its id is the highest of all vertices.
         duplicate: VertexId,
     },
 }
 
 impl Topology {
-    /// Tears the edge of `h`. Gives what became of `h`'s origin and of its target, in this order, or `None`
-    /// (nothing changed) if the edge has no two bound faces.
+    /// Tears the edge of `h` (VC 5.2). [`FilmMesh::tear`](super::FilmMesh::tear) also keeps the positions in step.
     ///
-    /// Where the fan of an end falls into two, `keep_first` is asked which one keeps the vertex: it gets the
-    /// first half-edge of each (walk them with [`Topology::fan_at`]) and answers whether it is the first.
+    /// Returns what became of the origin and the target of `h`, in this order. Returns `None`, and changes nothing, if
+    /// the edge does not join two live faces: on the border, where it is torn already, or where a face was removed.
+    ///
+    /// Where the fan of an end falls into two, `keep_first` decides which of the two keeps the vertex. It is called
+    /// with the first half-edge of each fan, which can be walked with [`Topology::fan_at`], and returns whether the
+    /// first fan keeps the vertex. The other fan gets a duplicate.
+    ///
+    /// ```
+    /// use bevy_coating::film::{HalfEdgeId, TearEnd, Topology, VertexId};
+    ///
+    /// // Four faces around vertex 0.
+    /// let mut topology = Topology::from_triangles(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])?;
+    /// let ends = topology.tear(HalfEdgeId(0), |_, _, _| true).unwrap();
+    /// // The tear starts at the border (vertex 1) and ends inside the film (vertex 0).
+    /// assert_eq!(ends[0], TearEnd::Opened(VertexId(0)));
+    /// assert_eq!(ends[1], TearEnd::Split { kept: VertexId(1), duplicate: VertexId(5) });
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn tear(
         &mut self,
         h: HalfEdgeId,
@@ -34,7 +52,7 @@ impl Topology {
         if !self.is_live(h.face()) || !self.is_live(twin.face()) {
             return None;
         }
-        // Taken before the flag is set: a closed fan has a bound half-edge in front.
+        // Looked up before the flag is set, since the flag itself opens the fans.
         let closed = [self.is_closed_fan(self.origin(h)), self.is_closed_fan(self.origin(twin))];
         self.torn[h.index()] = true;
         self.torn[twin.index()] = true;
@@ -51,13 +69,13 @@ impl Topology {
         }))
     }
 
-    /// The half-edges of the fan that starts at `first`, counter-clockwise: for `keep_first` of
-    /// [`Topology::tear`].
-    pub fn fan_at(&self, first: HalfEdgeId) -> super::Fan<'_> {
+    /// Iterates over the half-edges of the fan that starts at `first`, counter-clockwise. Meant for `keep_first` of
+    /// [`Topology::tear`], where a vertex has two fans for a moment.
+    pub fn fan_at(&self, first: HalfEdgeId) -> Fan<'_> {
         self.fan_from(first)
     }
 
-    /// Gives the fan that starts at `first` a vertex of its own.
+    /// Appends a duplicate of `v` for the fan that starts at `first`, and returns it.
     fn duplicate(&mut self, v: VertexId, first: HalfEdgeId) -> VertexId {
         let duplicate = VertexId::new(self.fans.len());
         self.fans.push(first);
@@ -72,9 +90,10 @@ impl Topology {
         duplicate
     }
 
-    /// Whether `f` is to be stripped: all its edges torn or, at the film's open border, all its inner edges
-    /// and at least one. (That the vertices have separated follows for torn edges; border edges are the
-    /// caller's to check.)
+    /// Returns whether the live face `f` is joined to no other face and has at least one torn edge, so that it may be
+    /// [stripped](Self::strip) (VC 5.3). Its other edges are torn or lie on the film's border.
+    ///
+    /// Both ends of a torn edge have separated. At the border, the caller must also check that all three corners have.
     pub fn is_cut_out(&self, f: FaceId) -> bool {
         let mut torn = false;
         let mut bound = false;
@@ -85,7 +104,20 @@ impl Topology {
         self.is_live(f) && torn && !bound
     }
 
-    /// Removes live face `f`, which must be cut out, as stripped. Its vertices are left without faces.
+    /// Removes the face `f` as [stripped](FaceFate::Stripped) if it [is cut out](Self::is_cut_out), and returns whether
+    /// it was. The three vertices are left without faces; they keep their ids.
+    ///
+    /// ```
+    /// use bevy_coating::film::{FaceFate, FaceId, HalfEdgeId, Topology};
+    ///
+    /// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
+    /// assert!(!topology.strip(FaceId(0)), "still bound to face 1");
+    /// topology.tear(HalfEdgeId(2), |_, _, _| true);
+    /// assert!(topology.strip(FaceId(0)));
+    /// assert_eq!(topology.fate(FaceId(0)), FaceFate::Stripped);
+    /// assert!(topology.is_live(FaceId(1)));
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn strip(&mut self, f: FaceId) -> bool {
         let cut_out = self.is_cut_out(f);
         if cut_out {
@@ -94,8 +126,8 @@ impl Topology {
         cut_out
     }
 
-    /// Removes the faces of a whole piece (all live faces joined across bound edges) as fallen. Faces that
-    /// are gone already are passed over.
+    /// Removes the faces of a piece as [fallen](FaceFate::Fallen). `piece` must hold all live faces that are joined to
+    /// one another across bound edges. Faces that were removed before are skipped.
     pub fn drop_piece(&mut self, piece: &[FaceId]) {
         debug_assert!(
             piece.iter().all(|f| {

@@ -1,32 +1,51 @@
-//! Positions of the film's vertices and what is measured on them at rest. Knows no connectivity beyond the
-//! handles it is asked about.
+//! Positions of the film's vertices, and measures at rest: normals, lengths, angles and areas.
 
 use bevy_math::{Vec3, ops};
 use core::f32::consts::PI;
 
-use super::{FaceId, HalfEdgeId, Topology, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::Topology,
+};
 
-/// Positions, at rest and now, in the prop's space with its world scale applied; and rest measures.
+/// Positions of the film's vertices at rest and now, and measures of the film at rest.
+///
+/// Positions are in the film's space: the prop's space with its world scale applied.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
-    /// Position of each vertex at rest.
+    /// Rest position of each vertex. A duplicate has that of its original.
     pub rest_positions: Vec<Vec3>,
-    /// Unit normal of each vertex at rest (angle-weighted), or zero where its faces cancel out.
+    /// Rest normal of each vertex: the mean of its faces' normals, weighted by their angles at the vertex. It has unit
+    /// length, or is zero if the normals cancel out.
     pub rest_normals: Vec<Vec3>,
-    /// Position of each vertex now.
+    /// Current position of each vertex.
     pub positions: Vec<Vec3>,
-    /// Rest length of each half-edge.
+    /// Rest length of each half-edge, in units of the film's space.
     pub rest_lengths: Vec<f32>,
-    /// Signed dihedral angle of each half-edge's edge at rest, in radians in (0, 2 pi); pi at the border.
+    /// Rest value of the [signed dihedral angle](signed_dihedral) at each half-edge, in radians between 0 and 2 pi. It
+    /// is pi on the border.
     pub rest_dihedrals: Vec<f32>,
-    /// Mean length of the edges at rest: the film's unit of length, h.
+    /// Mean rest length of the edges. Each edge counts once. This is h, the unit of settings that are
+    /// given in mean film edges.
     pub mean_edge: f32,
-    /// Area of all faces at rest.
+    /// Rest area of all faces together, in square units of the film's space.
     pub rest_area: f32,
 }
 
 impl Geometry {
-    /// Measures the film at rest. `positions` holds one entry a vertex of `topology`.
+    /// Measures a film at rest. `positions` holds one entry for each vertex of `topology`.
+    ///
+    /// ```
+    /// use bevy_coating::film::{Geometry, Topology};
+    /// use bevy_math::Vec3;
+    ///
+    /// let topology = Topology::from_triangles(3, &[[0, 1, 2]])?;
+    /// let geometry = Geometry::at_rest(&topology, vec![Vec3::ZERO, 3.0 * Vec3::X, 4.0 * Vec3::Y]);
+    /// assert_eq!(geometry.rest_lengths, [3.0, 5.0, 4.0]);
+    /// assert_eq!((geometry.mean_edge, geometry.rest_area), (4.0, 6.0));
+    /// assert_eq!(geometry.rest_normals, [Vec3::Z; 3]);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn at_rest(topology: &Topology, positions: Vec<Vec3>) -> Self {
         debug_assert_eq!(topology.vertex_count(), positions.len());
         let mut geometry = Self { positions: positions.clone(), rest_positions: positions, ..Self::default() };
@@ -56,6 +75,7 @@ impl Geometry {
         geometry
     }
 
+    /// Returns the angle-weighted normal of each vertex at rest.
     fn vertex_normals(&self, topology: &Topology) -> Vec<Vec3> {
         let mut normals = vec![Vec3::ZERO; topology.vertex_count()];
         for f in topology.all_faces() {
@@ -64,7 +84,7 @@ impl Geometry {
             let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
             for i in 0..3 {
                 let (a, b) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
-                // atan2 holds where acos of a rounded cosine does not.
+                // atan2, because the arc cosine of a rounded cosine may not exist.
                 let angle = ops::atan2(a.cross(b).length(), a.dot(b));
                 normals[corners[i].index()] += normal * angle;
             }
@@ -75,7 +95,7 @@ impl Geometry {
         normals
     }
 
-    /// Copies all that belongs to `v` to a new vertex at the end.
+    /// Appends a vertex with the positions and the rest normal of `v`.
     pub fn duplicate_vertex(&mut self, v: VertexId) {
         let i = v.index();
         self.rest_positions.push(self.rest_positions[i]);
@@ -83,29 +103,31 @@ impl Geometry {
         self.positions.push(self.positions[i]);
     }
 
-    /// Mean of the corners of `f` at rest.
+    /// Returns the centroid of `f` at rest.
     #[inline]
     pub fn rest_centroid(&self, topology: &Topology, f: FaceId) -> Vec3 {
-        // Through the originals, which never move or change: a duplicate may not be known here yet.
+        // A duplicate that was just made may have no entry here yet, but its original has the same position.
         let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[topology.original(v).index()]);
         (a + b + c) / 3.0
     }
 
-    /// Area of `f` at rest.
+    /// Returns the area of `f` at rest, in square units of the film's space.
     pub fn rest_area_of(&self, topology: &Topology, f: FaceId) -> f32 {
         let [a, b, c] = topology.corners(f).map(|v| self.rest_positions[topology.original(v).index()]);
-        // A square root is exact everywhere; the vector type's own may be a call of a library.
+        // `f32::sqrt` rounds alike on every platform; the length of the vector type may call a library instead.
         (b - a).cross(c - a).length_squared().sqrt() * 0.5
     }
 
-    /// Height of `v` over the plane of its rest position, in the film's space; negative is below.
+    /// Returns the height of `v` over the plane through its rest position and perpendicular to its rest normal, in
+    /// units of the film's space. It is negative below that plane.
     #[inline]
     pub fn height(&self, v: VertexId) -> f32 {
         let i = v.index();
         (self.positions[i] - self.rest_positions[i]).dot(self.rest_normals[i])
     }
 
-    /// Signed dihedral angle at the edge of `h` now; `None` where the two faces are not bound.
+    /// Returns the current [signed dihedral angle](signed_dihedral) at the edge of `h`, in radians. Returns `None`
+    /// where the edge is torn or on the border, and where a face has no area.
     pub fn dihedral(&self, topology: &Topology, h: HalfEdgeId) -> Option<f32> {
         let twin = topology.bound_twin(h)?;
         let [p1, p2, p3, p4] = [topology.origin(h), topology.target(h), topology.apex(h), topology.apex(twin)]
@@ -121,16 +143,31 @@ impl Geometry {
     }
 }
 
-/// Angle between face 1 = (p1, p2, p3) and face 2 = (p2, p1, p4), both counter-clockwise from outside, on
-/// the outer side: pi is flat, below pi a valley, above pi a mountain; in (0, 2 pi). VC 4.3 takes the arc
-/// cosine, which cannot tell the two folds apart and is not smooth when flat; this form is smooth everywhere
-/// but at fully folded pairs. `None` where a face has no area.
+/// Returns the signed dihedral angle between face 1 = (p1, p2, p3) and face 2 = (p2, p1, p4), in radians between 0 and
+/// 2 pi. Both faces are counter-clockwise seen from outside.
+///
+/// Flat is pi, a valley is below pi and a ridge above it. Returns `None` if a face has no area.
+///
+/// VC 4.3 uses the arc cosine, which cannot tell valleys from ridges and is not smooth where the faces are flat. This
+/// form uses the arc tangent of sine and cosine, and is smooth everywhere but where the faces are folded onto each
+/// other.
+///
+/// ```
+/// use bevy_coating::film::signed_dihedral;
+/// use bevy_math::Vec3;
+/// use std::f32::consts::PI;
+///
+/// let (a, b, left) = (Vec3::ZERO, Vec3::Y, Vec3::NEG_X);
+/// assert_eq!(signed_dihedral(a, b, left, Vec3::X), Some(PI), "flat");
+/// assert!(signed_dihedral(a, b, left, Vec3::new(1.0, 0.0, 0.5)).unwrap() < PI, "valley");
+/// assert!(signed_dihedral(a, b, left, Vec3::new(1.0, 0.0, -0.5)).unwrap() > PI, "ridge");
+/// ```
 pub fn signed_dihedral(p1: Vec3, p2: Vec3, p3: Vec3, p4: Vec3) -> Option<f32> {
     let edge = p2 - p1;
     let length = edge.length_squared().sqrt();
     let n1 = edge.cross(p3 - p1);
     let n2 = edge.cross(p2 - p4);
-    // Both terms carry the lengths of both normals, which cancel out.
+    // Both values are scaled by the lengths of both normals, which the arc tangent ignores.
     let (sine, cosine) = (edge.dot(n1.cross(n2)) / length, n1.dot(n2));
     let whole = n1.length_squared() > 0.0 && n2.length_squared() > 0.0;
     (whole && (sine != 0.0 || cosine != 0.0)).then(|| PI + ops::atan2(sine, cosine))

@@ -1,76 +1,41 @@
 //! The film: a half-edge triangle mesh of the paint (VC 3.3).
 //!
-//! [`Topology`] knows no positions, [`Geometry`] knows no connectivity. Both together are the
-//! [`FilmMesh`]. Per-element quantities of the stages (forces, constraints, stains) are flat arrays of their
-//! own, indexed by the same handles.
+//! A [`FilmMesh`] has two parts: [`Topology`] says which faces are connected and stores no positions, and [`Geometry`]
+//! stores positions and what is measured on them. The stages of the simulation keep their own flat arrays (forces,
+//! constraints, stains), which the same [handles](HalfEdgeId) index.
+//!
+//! ```
+//! use bevy_coating::film::FilmMesh;
+//! use bevy_math::Vec3;
+//!
+//! // A unit square of two triangles.
+//! let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+//! let mut film = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]])?;
+//!
+//! // Tear the diagonal. Both of its ends lie on the border, so each end becomes two vertices.
+//! let diagonal = film.topology.all_edges().find(|&h| film.topology.bound_twin(h).is_some()).unwrap();
+//! assert!(film.tear(diagonal, Vec3::NEG_Y).is_some());
+//! assert_eq!(film.topology.vertex_count(), 6);
+//! # Ok::<(), bevy_coating::film::TopologyError>(())
+//! ```
 
 mod changes;
 mod edit;
 mod geometry;
 mod handles;
+mod mesh;
 mod pieces;
 mod topology;
 mod validate;
-
-use bevy_math::Vec3;
 
 pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;
 pub use geometry::{Geometry, signed_dihedral};
 pub use handles::{FaceId, HalfEdgeId, VertexId};
+pub use mesh::FilmMesh;
 pub use pieces::{FilmPieces, LoosePiece, LoosePieces, PieceScratch};
 pub use topology::{FaceFate, Fan, Topology, TopologyError};
 pub use validate::InvariantError;
 
 #[cfg(test)]
 pub(crate) mod tests;
-
-/// The film mesh of one coated prop.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
-pub struct FilmMesh {
-    /// Connectivity.
-    pub topology: Topology,
-    /// Positions.
-    pub geometry: Geometry,
-}
-
-impl FilmMesh {
-    /// A film at rest of `triangles`, an oriented manifold over `positions`.
-    ///
-    /// # Errors
-    /// [`TopologyError`] when the triangles are no oriented manifold.
-    pub fn new(positions: Vec<Vec3>, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
-        let topology = Topology::from_triangles(positions.len(), triangles)?;
-        let geometry = Geometry::at_rest(&topology, positions);
-        Ok(Self { topology, geometry })
-    }
-
-    /// Tears the edge of `h`; see [`Topology::tear`]. Of two fans the one that lies lowest along `gravity`
-    /// (mean of its faces' centroids at rest; at a tie the one with the lowest face) keeps the vertex.
-    pub fn tear(&mut self, h: HalfEdgeId, gravity: Vec3) -> Option<[TearEnd; 2]> {
-        let Self { topology, geometry } = self;
-        let ends = topology.tear(h, |topology, a, b| {
-            let (depth_a, face_a) = fan_depth(topology, geometry, a, gravity);
-            let (depth_b, face_b) = fan_depth(topology, geometry, b, gravity);
-            if depth_a == depth_b { face_a < face_b } else { depth_a > depth_b }
-        })?;
-        for end in ends {
-            if let TearEnd::Split { kept, .. } = end {
-                geometry.duplicate_vertex(kept);
-            }
-        }
-        Some(ends)
-    }
-}
-
-/// How far along gravity a fan lies, and its lowest face.
-fn fan_depth(topology: &Topology, geometry: &Geometry, first: HalfEdgeId, gravity: Vec3) -> (f32, FaceId) {
-    let (mut depth, mut faces, mut lowest) = (0.0, 0.0, FaceId::NONE);
-    for h in topology.fan_at(first) {
-        depth += geometry.rest_centroid(topology, h.face()).dot(gravity);
-        faces += 1.0;
-        lowest = lowest.min(h.face());
-    }
-    (depth / faces, lowest)
-}

@@ -1,23 +1,22 @@
-//! Half-edge connectivity of the film (VC 3.3, fig. 4). Knows no positions.
+//! Half-edge connectivity of the film (VC 3.3, fig. 4).
 //!
-//! Face `f` owns half-edges `3f..3f + 3`, so next and previous are arithmetic and only the twin is stored.
-//! The twin is the one of the rest state and is kept when the edge tears: whether the two are still bound is
-//! a flag. All handles stay valid for the life of the film (see [`super::edit`]).
+//! Face `f` owns half-edges `3 * f` to `3 * f + 2`, so the next and the previous half-edge of a face are arithmetic and
+//! only twins are stored. A twin is never forgotten: a torn edge keeps its twins, and a flag says that it is torn.
 
-use super::{FaceId, HalfEdgeId, VertexId};
+use super::handles::{FaceId, HalfEdgeId, VertexId};
 
-/// What has become of a face.
+/// State of a face: part of the film or removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaceFate {
-    /// Part of the film.
+    /// The face is part of the film.
     Live,
-    /// Removed because all its edges were torn (VC 5.3).
+    /// The face was removed because it was joined to no other face any more (VC 5.3).
     Stripped,
-    /// Removed as part of a small loose piece.
+    /// The face was removed as part of a loose piece that fell.
     Fallen,
 }
 
-/// Why triangles are no film.
+/// Reason why triangles cannot be the faces of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TopologyError {
     /// A triangle refers to a vertex that does not exist, or to one vertex twice.
@@ -25,27 +24,44 @@ pub enum TopologyError {
     BadTriangle {
         /// Index of the triangle.
         triangle: u32,
-        /// Number of vertices.
+        /// Number of vertices that there are.
         vertices: u32,
     },
     /// Two triangles run along an edge in the same direction, or more than two share it.
     #[error("the edge from vertex {from} to {to} belongs to two faces in the same direction")]
     NonManifoldEdge {
-        /// Start of the edge.
+        /// Index of one end of the edge.
         from: u32,
-        /// End of the edge.
+        /// Index of the other end of the edge.
         to: u32,
     },
     /// The faces of a vertex form more than one fan.
     #[error("the faces at vertex {vertex} form more than one fan")]
     NonManifoldVertex {
-        /// The vertex.
+        /// Index of the vertex.
         vertex: u32,
     },
 }
 
-/// Connectivity of the film. Every vertex that has faces has exactly one fan of faces joined across bound
-/// edges.
+/// Connectivity of the film.
+///
+/// An edge between two faces is *bound* until it tears. The faces of a vertex always form one *fan*: each is joined to
+/// the next across a bound edge. Where a tear would leave two fans, the vertex is duplicated.
+///
+/// ```
+/// use bevy_coating::film::{HalfEdgeId, Topology, VertexId};
+///
+/// // A unit square: its two faces share the diagonal from vertex 0 to vertex 2.
+/// let topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
+/// let diagonal = HalfEdgeId(2);
+/// assert_eq!((topology.origin(diagonal), topology.target(diagonal)), (VertexId(2), VertexId(0)));
+/// assert_eq!(topology.bound_twin(diagonal), Some(HalfEdgeId(3)));
+///
+/// // Walk the faces around vertex 0, counter-clockwise.
+/// let faces: Vec<u32> = topology.fan(VertexId(0)).map(|h| h.face().0).collect();
+/// assert_eq!(faces, [0, 1]);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Topology {
     /// Start vertex of each half-edge.
@@ -70,10 +86,19 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Connects `triangles` (an oriented manifold over vertices `0..vertices`).
+    /// Connects triangles over the vertices `0..vertices`. Triangles are counter-clockwise seen from outside.
     ///
     /// # Errors
-    /// [`TopologyError`] when the triangles are no oriented manifold; [`super::build`] makes one of anything.
+    /// [`TopologyError`] if the triangles do not form an oriented manifold. [`clean`](crate::surface::clean) makes one
+    /// of any triangles.
+    ///
+    /// ```
+    /// use bevy_coating::film::{Topology, TopologyError};
+    ///
+    /// // Two triangles that only meet in a point.
+    /// let error = Topology::from_triangles(5, &[[0, 1, 2], [0, 3, 4]]).unwrap_err();
+    /// assert_eq!(error, TopologyError::NonManifoldVertex { vertex: 0 });
+    /// ```
     pub fn from_triangles(vertices: usize, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
         let mut origins = Vec::with_capacity(triangles.len() * 3);
         for (i, t) in triangles.iter().enumerate() {
@@ -99,6 +124,7 @@ impl Topology {
         Ok(topology)
     }
 
+    /// Finds the twin of every half-edge that has one.
     fn pair_twins(&mut self) -> Result<(), TopologyError> {
         let mut order: Vec<(u32, u32, HalfEdgeId)> = self
             .all_half_edges()
@@ -121,6 +147,7 @@ impl Topology {
         Ok(())
     }
 
+    /// Finds the fan of every vertex and the vertices on the border.
     fn find_fans(&mut self) -> Result<(), TopologyError> {
         let mut corners = vec![0u32; self.fans.len()];
         for h in self.all_half_edges() {
@@ -144,147 +171,152 @@ impl Topology {
         Ok(())
     }
 
-    /// Number of faces, stripped and fallen ones included.
+    /// Returns the number of faces, including removed ones.
     #[inline]
     pub fn face_count(&self) -> usize {
         self.fates.len()
     }
 
-    /// Number of faces that were stripped or fell.
+    /// Returns the number of faces that were stripped or fell.
     #[inline]
     pub fn removed_face_count(&self) -> usize {
         self.removed_faces as usize
     }
 
-    /// Number of half-edges, those of stripped and fallen faces included.
+    /// Returns the number of half-edges, including those of removed faces.
     #[inline]
     pub fn half_edge_count(&self) -> usize {
         self.origins.len()
     }
 
-    /// Number of vertices, duplicates and those without faces included.
+    /// Returns the number of vertices, including duplicates and vertices without faces.
     #[inline]
     pub fn vertex_count(&self) -> usize {
         self.fans.len()
     }
 
-    /// Number of vertices at rest. Their handles are the lowest; duplicates follow.
+    /// Returns the number of vertices that are no duplicates. They have the lowest handles; duplicates follow.
     #[inline]
     pub fn original_vertex_count(&self) -> usize {
         self.original_vertices as usize
     }
 
-    /// All faces.
+    /// Iterates over all faces, including removed ones.
     pub fn all_faces(&self) -> impl ExactSizeIterator<Item = FaceId> + use<> {
         (0..self.face_count()).map(FaceId::new)
     }
 
-    /// All half-edges, those of removed faces included.
+    /// Iterates over all half-edges, including those of removed faces.
     pub fn all_half_edges(&self) -> impl ExactSizeIterator<Item = HalfEdgeId> + use<> {
         (0..self.half_edge_count()).map(HalfEdgeId::new)
     }
 
-    /// All vertices, those without faces included.
+    /// Iterates over all vertices, including duplicates and vertices without faces.
     pub fn all_vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + use<> {
         (0..self.vertex_count()).map(VertexId::new)
     }
 
-    /// Faces that are still part of the film.
+    /// Iterates over the faces that are part of the film.
     pub fn live_faces(&self) -> impl Iterator<Item = FaceId> + '_ {
         self.all_faces().filter(|&f| self.is_live(f))
     }
 
-    /// One half-edge an edge at rest, torn or not, of removed faces too: the lower half-edge of the pair, or
-    /// the only one at the border.
+    /// Iterates over all edges of the film at rest, including torn ones and those of removed faces. Each is given by
+    /// the lower of its two half-edges, or by its only one on the border.
     pub fn all_edges(&self) -> impl Iterator<Item = HalfEdgeId> + '_ {
         self.all_half_edges().filter(|&h| h < self.twins[h.index()])
     }
 
-    /// Start vertex of `h`.
+    /// Returns the vertex at which `h` starts.
     #[inline]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {
         self.origins[h.index()]
     }
 
-    /// End vertex of `h`.
+    /// Returns the vertex at which `h` ends.
     #[inline]
     pub fn target(&self, h: HalfEdgeId) -> VertexId {
         self.origins[h.next().index()]
     }
 
-    /// The corner of `h`'s face that is not on `h`.
+    /// Returns the corner of the face of `h` that does not lie on `h`.
     #[inline]
     pub fn apex(&self, h: HalfEdgeId) -> VertexId {
         self.origins[h.previous().index()]
     }
 
-    /// The three vertices of `f`, counter-clockwise seen from outside.
+    /// Returns the three corners of `f`, counter-clockwise seen from outside.
     #[inline]
     pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
         f.half_edges().map(|h| self.origin(h))
     }
 
-    /// The opposite half-edge at rest, whether torn or not; `None` at the open border.
+    /// Returns the half-edge that runs the other way along the same edge of the film at rest, even if the edge is torn
+    /// by now. Returns `None` on the border.
     #[inline]
     pub fn rest_twin(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.twins[h.index()].get()
     }
 
-    /// The opposite half-edge that `h` is still bound to.
+    /// Returns the half-edge that runs the other way along the same edge. Returns `None` on the border and where the
+    /// edge is torn.
     #[inline]
     pub fn bound_twin(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         if self.torn[h.index()] { None } else { self.twins[h.index()].get() }
     }
 
-    /// The half-edge that stands for the whole edge: the lower of the pair.
+    /// Returns the half-edge that stands for the whole edge of `h`: the lower one of the two, as in
+    /// [`all_edges`](Self::all_edges).
     #[inline]
     pub fn edge(&self, h: HalfEdgeId) -> HalfEdgeId {
         h.min(self.twins[h.index()])
     }
 
-    /// Whether the edge of `h` is torn.
+    /// Returns whether the edge of `h` is torn.
     #[inline]
     pub fn is_torn(&self, h: HalfEdgeId) -> bool {
         self.torn[h.index()]
     }
 
-    /// Whether `f` is part of the film.
+    /// Returns whether `f` is part of the film.
     #[inline]
     pub fn is_live(&self, f: FaceId) -> bool {
         self.fates[f.index()] == FaceFate::Live
     }
 
-    /// What has become of `f`.
+    /// Returns whether `f` is part of the film, was stripped or has fallen.
     #[inline]
     pub fn fate(&self, f: FaceId) -> FaceFate {
         self.fates[f.index()]
     }
 
-    /// Whether any face is left at `v`.
+    /// Returns whether any face is left at `v`.
     #[inline]
     pub fn has_faces(&self, v: VertexId) -> bool {
         self.fans[v.index()] != HalfEdgeId::NONE
     }
 
-    /// Whether `v` lies on the film's border at rest or is a duplicate. Such a vertex is never a crack end.
+    /// Returns whether `v` lies on the film's border at rest or is a duplicate. Such a vertex is never the tip of a
+    /// crack.
     #[inline]
     pub fn is_border(&self, v: VertexId) -> bool {
         self.border[v.index()]
     }
 
-    /// The vertex at rest that `v` is, or is a duplicate of.
+    /// Returns the vertex of which `v` is a duplicate, or `v` itself if it is none.
     #[inline]
     pub fn original(&self, v: VertexId) -> VertexId {
         self.originals[v.index()]
     }
 
-    /// Whether an edge of `f` is torn.
+    /// Returns whether at least one edge of `f` is torn.
     #[inline]
     pub fn has_torn_edge(&self, f: FaceId) -> bool {
         f.half_edges().iter().any(|&h| self.torn[h.index()])
     }
 
-    /// How many of the two faces of `h`'s edge have a torn edge; 0 where the edge is not between two faces any more.
+    /// Returns the number of faces at the edge of `h` that have a torn edge, 0 to 2. Returns 0 where the edge does not
+    /// join two faces (any more).
     #[inline]
     pub fn torn_faces(&self, h: HalfEdgeId) -> u8 {
         match self.bound_twin(h) {
@@ -295,34 +327,46 @@ impl Topology {
         }
     }
 
-    /// The half-edges that start at `v`, one a face, counter-clockwise. Empty when no face is left.
+    /// Iterates over the half-edges that start at `v`, one for each of its faces, counter-clockwise. Where the fan is
+    /// open, the walk starts at its clockwise end. There are none if `v` has no faces left.
+    ///
+    /// ```
+    /// use bevy_coating::film::{Topology, VertexId};
+    ///
+    /// let topology = Topology::from_triangles(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])?;
+    /// assert!(topology.is_closed_fan(VertexId(0)));
+    /// let ring: Vec<u32> = topology.fan(VertexId(0)).map(|h| topology.target(h).0).collect();
+    /// assert_eq!(ring.len(), 4);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     #[inline]
     pub fn fan(&self, v: VertexId) -> Fan<'_> {
         self.fan_from(self.fans[v.index()])
     }
 
-    /// The fan of half-edges from `first` on, counter-clockwise, until it closes or ends.
+    /// Iterates over the half-edges of the fan from `first` on, counter-clockwise, until it closes or ends.
     #[inline]
     pub(super) fn fan_from(&self, first: HalfEdgeId) -> Fan<'_> {
         Fan { topology: self, first, next: first, left: self.origins.len() }
     }
 
-    /// The half-edges around an original vertex as they were at rest, torn or removed since or not, from `first` on:
-    /// the start of its [fan](Self::fan) at rest. They start at the vertex or at a duplicate of it.
+    /// Iterates over the half-edges around an original vertex as they were at rest, even if edges have torn or faces
+    /// were removed since. `first` is the half-edge at which the [fan](Self::fan) of the vertex began at rest. The
+    /// half-edges start at the vertex or at a duplicate of it.
     #[inline]
     pub fn rest_fan(&self, first: HalfEdgeId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         std::iter::successors(first.get(), move |h| self.rest_twin(h.previous()).filter(|&next| next != first))
     }
 
-    /// Whether the [fan](Self::fan) of `h`'s start vertex begins at `h`: true of one half-edge a vertex that has faces,
-    /// so vertices of faces can be counted without marks.
+    /// Returns whether the [fan](Self::fan) of the origin of `h` begins at `h`. This holds for exactly one half-edge of
+    /// each vertex that has faces, so a walk over half-edges can visit each vertex once.
     #[inline]
     pub fn starts_fan(&self, h: HalfEdgeId) -> bool {
         self.fans[self.origin(h).index()] == h
     }
 
-    /// The half-edge after `h` along the border of its piece, where `h` is bound to no other: the way round keeps the
-    /// piece to its left.
+    /// Returns the half-edge that follows `h` on the border of its piece. `h` must be on that border itself: bound to
+    /// no twin. The piece lies to the left of the walk.
     #[inline]
     pub(super) fn next_on_border(&self, h: HalfEdgeId) -> HalfEdgeId {
         let mut next = h.next();
@@ -333,20 +377,21 @@ impl Topology {
         next
     }
 
-    /// Whether the faces at `v` go all the way round it.
+    /// Returns whether the faces at `v` go all the way round it, with no border or torn edge between them.
     #[inline]
     pub fn is_closed_fan(&self, v: VertexId) -> bool {
         self.fans[v.index()].get().is_some_and(|h| self.bound_twin(h).is_some())
     }
 }
 
-/// Iterator over the half-edges that start at a vertex; see [`Topology::fan`].
+/// Iterator over the half-edges that start at a vertex, made by [`Topology::fan`].
 #[derive(Clone, Debug)]
 pub struct Fan<'a> {
     topology: &'a Topology,
     first: HalfEdgeId,
     next: HalfEdgeId,
-    /// Ends the walk on connectivity that is no manifold, which construction must survive to report.
+    /// Steps until the walk is given up. A fan of triangles that are no manifold may never close, and construction must
+    /// end to report it.
     left: usize,
 }
 

@@ -1,42 +1,46 @@
-//! Checks every invariant of a film's connectivity and geometry.
+//! Checks the invariants of a film's connectivity and geometry.
 
-use super::{FaceId, FilmMesh, HalfEdgeId, VertexId};
+use super::{
+    handles::{FaceId, HalfEdgeId, VertexId},
+    mesh::FilmMesh,
+    topology::FaceFate,
+};
 
-/// A broken invariant: a bug, never the user's doing.
+/// Invariant of a film that does not hold. This is a bug of this crate, never a fault of the user.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InvariantError {
-    /// A per-element array does not have one entry an element.
+    /// A flat array does not have one entry for each element. Holds the name of the array.
     #[error("array {0} has the wrong length")]
     ArrayLength(&'static str),
-    /// Twins do not point at each other.
+    /// The twin of a half-edge has another twin.
     #[error("half-edge {0:?} is not its twin's twin")]
     Twin(HalfEdgeId),
-    /// The torn flag differs between twins, or a border half-edge is torn.
+    /// Only one of two twins is marked as torn, or a half-edge on the border is.
     #[error("half-edge {0:?} is torn on one side only")]
     TornOneSided(HalfEdgeId),
-    /// Bound twins run between different vertices.
+    /// Two bound twins do not run between the same two vertices.
     #[error("half-edge {0:?} and its bound twin have different ends")]
     BoundEnds(HalfEdgeId),
-    /// A bound half-edge leads to a removed face.
+    /// A half-edge of a live face is bound to a removed face.
     #[error("half-edge {0:?} of a live face is bound to a removed one")]
     BoundToRemoved(HalfEdgeId),
-    /// A stripped face is still bound to another.
+    /// A stripped face is still bound to another face.
     #[error("stripped face {0:?} has a bound inner edge")]
     StrippedBound(FaceId),
-    /// The faces of a vertex are not one fan, or the fan does not start where it is open.
+    /// The faces of a vertex do not form one fan, or the fan is open but does not start at its clockwise end.
     #[error("the live faces at vertex {0:?} are not one fan")]
     NotOneFan(VertexId),
-    /// A duplicate is not marked as border, or its original is no original.
+    /// A duplicate is not marked as a border vertex, or is the duplicate of another duplicate.
     #[error("vertex {0:?} is no proper duplicate")]
     Duplicate(VertexId),
-    /// A position is NaN or infinite.
+    /// A position of the vertex, at rest or now, is NaN or infinite.
     #[error("vertex {0:?} is not finite")]
     NonFinite(VertexId),
     /// An attached vertex has moved.
     #[error("attached vertex {0:?} has moved")]
     AttachedMoved(VertexId),
-    /// A vertex lies below the plane of its rest position.
+    /// A vertex lies below the plane through its rest position and perpendicular to its rest normal.
     #[error("vertex {0:?} lies below its plane")]
     BelowPlane(VertexId),
     /// An end of a torn edge is attached.
@@ -45,43 +49,55 @@ pub enum InvariantError {
     /// A crack tip does not have exactly one torn edge.
     #[error("crack tip {0:?} does not have exactly one torn edge")]
     Tip(VertexId),
-    /// The binding of an edge decays for more or fewer faces than have a torn edge.
+    /// The binding of an edge does not decay once for each of its faces that has a torn edge (VC 5.2).
     #[error("the binding of half-edge {0:?} decays at the wrong rate")]
     Decay(HalfEdgeId),
-    /// What is known of connected pieces is not what a look at the whole film finds.
+    /// The recorded pieces of the film differ from those that a search of the whole film finds.
     #[error("the connected pieces of the film are not those that are known")]
     Pieces,
     /// The inverse mass of a vertex does not agree with whether it is attached.
     #[error("vertex {0:?} has the wrong inverse mass")]
     InverseMass(VertexId),
-    /// A stain is negative, above its range or not finite.
+    /// A stain is negative, above its range or not finite. Holds the name of the stain.
     #[error("stain {0} of vertex {1:?} is out of range")]
     Stain(&'static str, VertexId),
-    /// Rust given off is not what is wet, has stained or has left.
+    /// The rust that sources gave off differs from the rust that is wet, has stained or has dripped off.
     #[error("{emitted} of rust was given off, but {found} is accounted for")]
     RustBudget {
-        /// Given off.
+        /// Rust given off in all.
         emitted: f64,
-        /// Wet, stained and dripped.
+        /// Rust that is wet, has stained and has dripped off, together.
         found: f64,
     },
-    /// The solver has a vertex in another place than the film.
+    /// The solver and the film have different positions for a vertex.
     #[error("vertex {0:?} is elsewhere in the solver")]
     PointElsewhere(VertexId),
-    /// Two constraints of a pack share a vertex.
+    /// Two constraints of one pack share a vertex, though a pack is solved all at once.
     #[error("two constraints of a pack share vertex {0:?}")]
     SharedPoint(VertexId),
-    /// A constraint is missing, doubled or refers to the wrong vertices.
+    /// A constraint of a half-edge is missing, is there twice or refers to the wrong vertices.
     #[error("constraint of half-edge {0:?} is wrong")]
     Constraint(HalfEdgeId),
 }
 
 impl FilmMesh {
-    /// Checks the invariants of connectivity and geometry that hold between any two edits. Takes time
-    /// proportional to the film's size; meant for tests and debugging.
+    /// Checks the invariants of connectivity and geometry that hold between any two edits.
+    ///
+    /// It takes time proportional to the size of the film and is meant for tests and debugging.
     ///
     /// # Errors
-    /// The first [`InvariantError`] found, in handle order.
+    /// [`InvariantError`]: the first one that is found. Arrays are checked first, then half-edges, then vertices.
+    ///
+    /// ```
+    /// use bevy_coating::film::{FilmMesh, InvariantError, VertexId};
+    /// use bevy_math::Vec3;
+    ///
+    /// let mut film = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// assert_eq!(film.validate(), Ok(()));
+    /// film.geometry.positions[1].x = f32::NAN;
+    /// assert_eq!(film.validate(), Err(InvariantError::NonFinite(VertexId(1))));
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn validate(&self) -> Result<(), InvariantError> {
         self.check_lengths()?;
         self.check_half_edges()?;
@@ -132,8 +148,8 @@ impl FilmMesh {
                 return Err(InvariantError::BoundEnds(h));
             }
             match t.fate(h.face()) {
-                super::FaceFate::Live if !t.is_live(twin.face()) => return Err(InvariantError::BoundToRemoved(h)),
-                super::FaceFate::Stripped => return Err(InvariantError::StrippedBound(h.face())),
+                FaceFate::Live if !t.is_live(twin.face()) => return Err(InvariantError::BoundToRemoved(h)),
+                FaceFate::Stripped => return Err(InvariantError::StrippedBound(h.face())),
                 _ => {}
             }
         }
@@ -151,7 +167,7 @@ impl FilmMesh {
         for v in t.all_vertices() {
             let in_fan = t.fan(v).count();
             let own = t.fan(v).all(|h| t.origin(h) == v && t.is_live(h.face()));
-            // An open fan must be seen whole from its first half-edge.
+            // A walk that starts in the middle of an open fan misses faces.
             if in_fan != corners[v.index()] || !own {
                 return Err(InvariantError::NotOneFan(v));
             }

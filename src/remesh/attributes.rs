@@ -1,4 +1,4 @@
-//! The prop's corner attributes as functions on its surface: where they jump, and where they bend.
+//! Finds the edges of the prop's surface at which its corner attributes jump or bend.
 
 use bevy_math::{Vec3, Vec4};
 
@@ -10,26 +10,26 @@ use crate::{
 
 /// Texture coordinates further apart than this on the two sides of an edge make it a seam.
 const UV_SEAM: f32 = 1e-4;
-/// Texture coordinates may be blurred by this, one texel of a 1k texture.
+/// Most by which the film may blur texture coordinates: one texel of a texture 1,000 texels wide.
 const UV_BEND: f32 = 1e-3;
-/// Directions (normals, tangents) further apart than this make an edge hard: about 20 degrees. Less is not a
-/// hard edge but the facets of a dense, flat-shaded scan.
+/// Directions (normals, tangents) further apart than this make an edge hard: about 20 degrees. Smaller differences are
+/// the facets of a dense, flat-shaded scan.
 const DIRECTION_SEAM: f32 = 0.35;
-/// Directions may be blurred by this, about a degree.
+/// Most by which the film may blur directions: about a degree.
 const DIRECTION_BEND: f32 = 0.015;
 /// Linear colours further apart than this make a colour border.
 const COLOR_SEAM: f32 = 0.02;
-/// Linear colours may be blurred by this.
+/// Most by which the film may blur linear colours.
 const COLOR_BEND: f32 = 0.01;
 
-/// One attribute: a value at each corner of the clean triangles.
+/// Attribute with a value at each corner of the clean triangles, and the limits of its jumps and bends.
 struct Channel {
     values: Vec<Vec4>,
     seam: f32,
     bend: f32,
 }
 
-/// All attributes that the prop has.
+/// Attributes that the prop has.
 pub(super) struct Attributes {
     channels: Vec<Channel>,
 }
@@ -58,8 +58,8 @@ impl Attributes {
         Self { channels }
     }
 
-    /// Whether an attribute differs between the two sides of the edge, at either end; in an `exact` film even by
-    /// as little as the film's faces may blur.
+    /// Returns whether an attribute differs between the two sides of the edge, at either end. Where the film must be
+    /// `exact`, smaller differences count too: those above the most that the film may blur.
     pub fn jump(&self, h: HalfEdgeId, t: HalfEdgeId, exact: bool) -> bool {
         self.channels.iter().any(|c| {
             let limit = if exact { c.seam.min(c.bend) } else { c.seam };
@@ -68,11 +68,11 @@ impl Attributes {
         })
     }
 
-    /// Whether film faces of edge length `target` that straddle a flat edge would show an attribute visibly
-    /// differently, because it is not one affine function on the two triangles.
+    /// Returns whether film faces of edge length `target` that lie across a flat edge would visibly change an
+    /// attribute, because the attribute is not one affine function on the two triangles.
     ///
-    /// Across the edge the gradient jumps by the misfit at the far corner over its height; a face of width w in
-    /// the middle of which the edge lies misses the kink by w/4 of that.
+    /// The gradient jumps across the edge by the error of the near triangle's function at the far corner, divided by
+    /// that corner's height over the edge. A face of width w with the edge in its middle is off by w/4 times that jump.
     pub fn bend(&self, topology: &Topology, positions: &[Vec3], h: HalfEdgeId, t: HalfEdgeId, target: f32) -> bool {
         let at = |h: HalfEdgeId| positions[topology.origin(h).index()];
         let (a, b, c, d) = (at(h), at(h.next()), at(h.previous()), at(t.previous()));

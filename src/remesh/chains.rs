@@ -1,8 +1,8 @@
 //! Feature lines as polylines over the clean mesh, measured by arc length.
 //!
-//! Feature edges are joined into chains between fixed vertices: junctions, ends, sharp turns. A film vertex on a
-//! chain has one coordinate, its arc length, and moves along the chain only. The two ends of a chain always
-//! differ, so that chain and end tell the coordinate of a fixed vertex.
+//! Feature edges are joined into chains between fixed vertices: junctions, ends and sharp turns. A film vertex on a
+//! chain has one coordinate, its arc length, and moves along the chain only. The two ends of a chain are always
+//! different vertices, so the arc length of a fixed vertex on a chain is known.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use super::features::Features;
 use super::topology::Topology;
 use crate::film::{HalfEdgeId, VertexId};
 
-/// No chain: the mark of an edge that is not a feature.
+/// Index of no chain, for edges that are not features.
 pub(super) const NO_CHAIN: u32 = u32::MAX;
 
 /// Turns sharper than this (cosine of 50 degrees), seen at the scale of the film's edges, are corners.
@@ -22,7 +22,7 @@ const SHARP_TURN: f32 = 0.643;
 #[derive(Clone, Copy)]
 struct Link {
     to: VertexId,
-    /// The half-edge along the link, and the one against it; a border has only one of them.
+    /// The half-edge along the link and the one against it. On a border there is only one of them.
     forward: Option<HalfEdgeId>,
     backward: Option<HalfEdgeId>,
 }
@@ -47,8 +47,8 @@ pub(super) struct ChainPoint {
 }
 
 impl Chains {
-    /// Joins the feature edges into chains. Returns the chain of every half-edge, and marks in `fixed` the
-    /// vertices at which chains end.
+    /// Joins the feature edges into chains. Returns the chains and the chain of every half-edge, and marks the vertices
+    /// at which chains end in `fixed`.
     pub fn new(
         topology: &Topology,
         positions: &[Vec3],
@@ -97,14 +97,14 @@ impl Chains {
         for v in all().filter(|v| fixed[v.index()]).collect::<Vec<_>>() {
             trace(v, fixed);
         }
-        // What is left are closed lines without a corner.
+        // The lines that are left are closed and have no corner.
         for v in all() {
             trace(v, fixed);
         }
         (chains, chain_of)
     }
 
-    /// Cuts a polyline at its sharp turns, and in three if its ends would coincide.
+    /// Cuts a polyline at its sharp turns, and into three chains if it is a loop, and adds the chains.
     fn cut_and_add(
         &mut self,
         positions: &[Vec3],
@@ -124,7 +124,7 @@ impl Chains {
         cuts.extend(sharp_turns(&point, &lengths, 0.5 * target));
         cuts.push(last);
         if vertices[0] == vertices[last] && cuts.len() < 4 {
-            // A loop needs three corners; take those it has and add the vertices nearest to its thirds.
+            // A loop needs three corners. To those that it has, the vertices nearest to its thirds are added.
             for third in [1.0, 2.0] {
                 let wanted = lengths[last] * third / 3.0;
                 let nearest = (1..last)
@@ -153,7 +153,7 @@ impl Chains {
         }
     }
 
-    /// The vertices of a chain with their arc lengths.
+    /// Iterates over the vertices of a chain with their arc lengths.
     pub fn points(&self, chain: u32) -> impl Iterator<Item = (VertexId, f32)> + '_ {
         let range = self.ranges[chain as usize].clone();
         self.vertices[range.clone()].iter().copied().zip(self.lengths[range].iter().copied())
@@ -163,13 +163,13 @@ impl Chains {
         self.ranges.len() as u32
     }
 
-    /// Arc length of the chain's end at the fixed vertex `v`.
+    /// Returns the arc length of the end of the chain that is the fixed vertex `v`.
     pub fn end(&self, chain: u32, v: VertexId) -> f32 {
         let range = &self.ranges[chain as usize];
         if self.vertices[range.start] == v { 0.0 } else { self.lengths[range.end - 1] }
     }
 
-    /// Index in the flat arrays of the chain's edge at arc length `s`.
+    /// Returns the index, in the flat arrays, of the chain's edge at arc length `s`.
     fn edge_at(&self, chain: u32, s: f32) -> usize {
         let range = self.ranges[chain as usize].clone();
         let after = self.lengths[range.clone()].partition_point(|&l| l <= s);
@@ -181,15 +181,15 @@ impl Chains {
         if to > from { ((s - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// The point at arc length `s`.
+    /// Returns the point of the chain at arc length `s`.
     pub fn position(&self, positions: &[Vec3], chain: u32, s: f32) -> Vec3 {
         let edge = self.edge_at(chain, s);
         let at = |i: usize| positions[self.vertices[i].index()];
         at(edge).lerp(at(edge + 1), self.fraction(edge, s))
     }
 
-    /// The point at arc length `s`, on the side that lies left of somebody walking the chain along (or against)
-    /// its arc length.
+    /// Returns the point at arc length `s` on the left side of the chain, as seen when walking `along` its arc length
+    /// (or against it). On a border the only side is returned.
     pub fn side(&self, chain: u32, s: f32, along: bool) -> Option<ChainPoint> {
         let edge = self.edge_at(chain, s);
         let fraction = self.fraction(edge, s);
@@ -198,7 +198,7 @@ impl Chains {
         if along { forward.or(backward) } else { backward.or(forward) }
     }
 
-    /// How far the chain strays from the chord between two of its points.
+    /// Returns the largest distance of the chain from the chord between two of its points.
     pub fn deviation(&self, positions: &[Vec3], chain: u32, from: f32, to: f32) -> f32 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let (a, b) = (self.position(positions, chain, from), self.position(positions, chain, to));
@@ -209,7 +209,7 @@ impl Chains {
     }
 }
 
-/// Feature edges around a vertex.
+/// Collects the feature edges around a vertex.
 fn collect_links(topology: &Topology, features: &Features, v: VertexId, links: &mut Vec<Link>) {
     links.clear();
     let mut last = None;
@@ -226,8 +226,8 @@ fn collect_links(topology: &Topology, features: &Features, v: VertexId, links: &
     }
 }
 
-/// Inner points at which the polyline turns sharply, looking `reach` ahead and back; of several within reach of
-/// each other the sharpest.
+/// Returns the inner points at which the polyline turns sharply, measured over the length `reach` ahead and back. Of
+/// several such points within that length only the sharpest is returned.
 fn sharp_turns(point: &dyn Fn(usize) -> Vec3, lengths: &[f32], reach: f32) -> Vec<usize> {
     let last = lengths.len() - 1;
     let at = |s: f32| {

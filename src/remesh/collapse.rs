@@ -1,25 +1,25 @@
-//! Edge collapses.
+//! Collapses edges.
 
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::{HalfEdgeId, VertexId};
 
-/// What a collapse must respect.
+/// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CollapseLimits {
     /// Edges shorter than this are collapsed.
     pub shortest: f32,
     /// No edge may grow longer than this.
     pub longest: f32,
-    /// How far a feature edge may stray from its line.
+    /// Largest distance of a feature edge from its line.
     pub deviation: f32,
-    /// How far the middle of an edge may be from the surface.
+    /// Largest distance of the middle of an edge from the surface.
     pub stray: f32,
-    /// Faces may get as bad as this, or as the worst was before.
+    /// Least quality of the faces after the collapse, unless the worst face was below it before.
     pub quality: f32,
-    /// Stop at this many faces.
+    /// Number of faces at which collapsing stops.
     pub fewest_faces: usize,
 }
 
@@ -38,54 +38,56 @@ pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) 
     }
 }
 
-/// Where the two ends of an edge may meet.
-type Meeting = (Vec3, Place);
+/// Position at which the two ends of an edge may meet.
+type Meeting = (Vec3, SurfacePoint);
 
-/// Collapses the edge if topology, features, size and shape allow it.
+/// Collapses the edge if topology, features, size and shape allow it, and returns whether it did.
 pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseLimits) -> bool {
     let meetings = meetings(mesh, h);
     if meetings[0].is_none() || !keeps_topology(mesh, h) {
         return false;
     }
-    for (position, place) in meetings.into_iter().flatten() {
-        if keeps_features(mesh, h, place, limits)
+    for (position, surface_point) in meetings.into_iter().flatten() {
+        if keeps_features(mesh, h, surface_point, limits)
             && keeps_shape(mesh, h, position, limits)
-            && keeps_close(mesh, h, position, place, limits)
+            && keeps_close(mesh, h, position, surface_point, limits)
         {
             let kept = collapse(mesh, h);
             mesh.positions[kept.index()] = position;
-            mesh.places[kept.index()] = place;
+            mesh.surface_points[kept.index()] = surface_point;
             return true;
         }
     }
     false
 }
 
-/// The places to try, best first. It is always the target's id that stays; whose place it takes is all that
-/// matters.
+/// Returns the positions to try, best first. The target of `h` always keeps its id, even if it moves to the origin.
 fn meetings(mesh: &WorkMesh, h: HalfEdgeId) -> [Option<Meeting>; 3] {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let at = |v: VertexId| Some((mesh.position(v), mesh.place(v)));
+    let at = |v: VertexId| Some((mesh.position(v), mesh.surface_point(v)));
     let chain = mesh.chain(h);
-    match (mesh.place(a), mesh.place(b)) {
-        (Place::Free(start), Place::Free(_)) => {
+    match (mesh.surface_point(a), mesh.surface_point(b)) {
+        (SurfacePoint::Free(start), SurfacePoint::Free(_)) => {
             let foot = project(mesh.reference, mesh.position(a).midpoint(mesh.position(b)), start);
-            [Some((foot.position, Place::Free(foot.triangle))), at(a), at(b)]
+            [Some((foot.position, SurfacePoint::Free(foot.triangle))), at(a), at(b)]
         }
-        (Place::Free(_), _) => [at(b), None, None],
-        (_, Place::Free(_)) => [at(a), None, None],
-        (Place::Line { chain: c, s: from }, Place::Line { chain: d, s: to }) if c == d && chain == Some(c) => {
+        (SurfacePoint::Free(_), _) => [at(b), None, None],
+        (_, SurfacePoint::Free(_)) => [at(a), None, None],
+        (SurfacePoint::Line { chain: c, s: from }, SurfacePoint::Line { chain: d, s: to })
+            if c == d && chain == Some(c) =>
+        {
             let s = 0.5 * (from + to);
             let position = mesh.reference.chains.position(mesh.reference.positions, c, s);
-            [Some((position, Place::Line { chain: c, s })), at(a), at(b)]
+            [Some((position, SurfacePoint::Line { chain: c, s })), at(a), at(b)]
         }
-        (Place::Line { chain: c, .. }, Place::Fixed(_)) if chain == Some(c) => [at(b), None, None],
-        (Place::Fixed(_), Place::Line { chain: c, .. }) if chain == Some(c) => [at(a), None, None],
+        (SurfacePoint::Line { chain: c, .. }, SurfacePoint::Fixed(_)) if chain == Some(c) => [at(b), None, None],
+        (SurfacePoint::Fixed(_), SurfacePoint::Line { chain: c, .. }) if chain == Some(c) => [at(a), None, None],
         _ => [None; 3],
     }
 }
 
-/// The link condition and its kin: the collapse changes neither Euler number nor border loops.
+/// Returns whether the collapse changes neither the Euler number nor the number of borders (the link condition, also
+/// for borders).
 fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
     let topology = &mesh.topology;
     let (a, b) = (topology.origin(h), topology.target(h));
@@ -107,8 +109,8 @@ fn keeps_topology(mesh: &WorkMesh, h: HalfEdgeId) -> bool {
     wings.into_iter().flatten().all(keeps_faces) && !ear(h) && !twin.is_some_and(ear)
 }
 
-/// Feature lines stay lines: none merge, and none strays from its course.
-fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, place: Place, limits: CollapseLimits) -> bool {
+/// Returns whether no two feature lines would merge and none would leave its course.
+fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, surface_point: SurfacePoint, limits: CollapseLimits) -> bool {
     for e in [Some(h), mesh.topology.twin(h)].into_iter().flatten() {
         // The two other edges of a vanishing face become one.
         if mesh.chain(e.next()).is_some() && mesh.chain(e.previous()).is_some() {
@@ -117,20 +119,20 @@ fn keeps_features(mesh: &WorkMesh, h: HalfEdgeId, place: Place, limits: Collapse
     }
     let Some(chain) = mesh.chain(h) else { return true };
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let meeting = match place {
-        Place::Line { s, .. } => s,
-        Place::Fixed(v) => mesh.reference.chains.end(chain, v),
-        Place::Free(_) => return false,
+    let meeting = match surface_point {
+        SurfacePoint::Line { s, .. } => s,
+        SurfacePoint::Fixed(v) => mesh.reference.chains.end(chain, v),
+        SurfacePoint::Free(_) => return false,
     };
-    [(a, b), (b, a)].into_iter().all(|(v, other)| match mesh.place(v) {
-        Place::Line { .. } => chain_neighbours(mesh, v, chain)
+    [(a, b), (b, a)].into_iter().all(|(v, other)| match mesh.surface_point(v) {
+        SurfacePoint::Line { .. } => chain_neighbours(mesh, v, chain)
             .filter(|&n| n != other)
             .all(|n| mesh.reference.strays(chain, meeting, mesh.arc_length(n, chain)) <= limits.deviation),
         _ => true,
     })
 }
 
-/// The vertices before and after `v` on a chain.
+/// Iterates over the vertices before and after `v` on a chain.
 pub(super) fn chain_neighbours<'m>(mesh: &'m WorkMesh, v: VertexId, chain: u32) -> impl Iterator<Item = VertexId> + 'm {
     let topology = &mesh.topology;
     let leaving = topology.ring(v).filter(move |&h| mesh.chain(h) == Some(chain)).map(|h| topology.target(h));
@@ -142,7 +144,7 @@ pub(super) fn chain_neighbours<'m>(mesh: &'m WorkMesh, v: VertexId, chain: u32) 
     leaving.chain(arriving)
 }
 
-/// No face folds over, no edge grows too long, no face gets too thin.
+/// Returns whether no face would fold over or get too thin, and no edge would get too long.
 fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseLimits) -> bool {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let longest = limits.longest.max(mesh.length(h));
@@ -164,9 +166,15 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
     least >= limits.quality || least >= mesh.quality(a).min(mesh.quality(b))
 }
 
-/// No edge at the merged vertex cuts through a bend of the surface, and neither end is left far behind: it may have
-/// been the tip of a bump.
-fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, limits: CollapseLimits) -> bool {
+/// Returns whether no edge at the merged vertex would cut through a bend of the surface, and both ends are still close
+/// to the new faces (an end may have been the tip of a bump).
+fn keeps_close(
+    mesh: &WorkMesh,
+    h: HalfEdgeId,
+    position: Vec3,
+    surface_point: SurfacePoint,
+    limits: CollapseLimits,
+) -> bool {
     let gone = [Some(h.face()), mesh.topology.twin(h).map(HalfEdgeId::face)];
     let near = |p: Vec3| {
         [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
@@ -187,8 +195,8 @@ fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, lim
                 if n == other || mesh.chain(e).is_some() {
                     return true;
                 }
-                let start = match (place, mesh.place(n)) {
-                    (Place::Free(f), _) | (_, Place::Free(f)) => f,
+                let start = match (surface_point, mesh.surface_point(n)) {
+                    (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
                     _ => mesh.corner(e).triangle,
                 };
                 let middle = position.midpoint(mesh.position(n));
@@ -197,8 +205,8 @@ fn keeps_close(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, place: Place, lim
     })
 }
 
-/// Merges the origin of `h` into its target, which is returned. The one or two faces at the edge and the origin
-/// die; all other ids stay.
+/// Merges the origin of `h` into its target, which is returned. The faces at the edge (one or two) and the origin are
+/// removed; all other ids stay.
 fn collapse(mesh: &mut WorkMesh, h: HalfEdgeId) -> VertexId {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let twin = mesh.topology.twin(h);

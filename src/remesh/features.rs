@@ -1,14 +1,13 @@
-//! Which edges of the prop's surface the film must follow.
+//! Finds the edges of the prop's surface that the film must follow.
 //!
-//! Always: borders, creases, UV seams, hard normals, colour borders, slot borders, borders of turned winding. Where
-//! the prop's own triangles are large against the film's, also every edge that is not flat or across which an
-//! attribute bends: there the fresh film must look exactly like the prop, down to its facets. On dense scans such
-//! edges are only sampling, and the film runs across them.
+//! These are always: borders, creases, UV seams, hard normals, colour borders, slot borders and borders of turned
+//! winding. Where the prop's own triangles are large compared to the film's, the film also follows every edge that is
+//! not flat or across which an attribute bends, since the fresh film must look exactly like the prop, down to its
+//! facets. On dense scans such edges come from the sampling only, and the film runs across them.
 
 use bevy_math::Vec3;
 
 use super::attributes::Attributes;
-use super::noise;
 use super::topology::Topology;
 use crate::{
     film::{FaceId, HalfEdgeId},
@@ -19,23 +18,23 @@ use crate::{
 pub(super) const CREASE: f32 = 0.866;
 /// Cosine of the angle up to which two triangles count as coplanar, 1.5 degrees.
 const FLAT: f32 = 0.999_66;
-/// A prop of so few triangles is followed exactly everywhere, whatever the film's number.
+/// A prop with at most this number of triangles is followed exactly everywhere.
 const LOW_POLY: f32 = 500.0;
-/// So is one whose triangles number less than this share of the film's.
+/// A prop is also followed exactly if it has at most this share of the film's number of triangles.
 const LOW_POLY_SHARE: f32 = 0.3;
-/// Elsewhere an edge is followed if its triangles stand at least so many target edges high over it.
+/// On other props an edge is followed exactly if both of its triangles are at least this high over it, in target edges.
 const LOW_POLY_HEIGHT: f32 = 1.5;
-/// A sharp edge at a face with a side longer than so many target edges is no noise.
+/// A sharp edge at a face with a side longer than this, in target edges, is never taken for noise.
 const NOISE_FACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Free,
-    /// A sharp edge between faces smaller than the film's: a crease, unless it is a scan's noise.
+    /// A sharp edge between faces smaller than the film's: a crease or the noise of a scan.
     Doubtful,
-    /// A crease, border or seam: kept, as a polyline that may be resampled.
+    /// A crease, border or seam. The film follows its line, with vertices anywhere on it.
     Line,
-    /// An edge of a low-poly prop: kept with both its ends.
+    /// An edge of a low-poly prop. The film follows it and has vertices at both of its ends.
     Exact,
 }
 
@@ -96,9 +95,7 @@ impl Features {
             kinds[h.index()] = kind;
             kinds[t.index()] = kind;
         }
-        let mut features = Self { kinds };
-        noise::drop_noise(&mut features, topology, positions, target);
-        features
+        Self { kinds }
     }
 
     #[inline]
@@ -106,7 +103,7 @@ impl Features {
         self.kinds[h.index()] != Kind::Free
     }
 
-    /// Vertices that must stay where they are because an exact edge ends there.
+    /// Returns, for each vertex, whether it must stay in place because an exact edge ends there.
     pub fn rigid_vertices(&self, topology: &Topology) -> Vec<bool> {
         let mut rigid = vec![false; topology.vertex_slots()];
         for h in topology.edges().filter(|h| self.kinds[h.index()] == Kind::Exact) {
@@ -116,7 +113,8 @@ impl Features {
         rigid
     }
 
-    /// The patch of every face: regions bounded by features, numbered by their lowest face.
+    /// Returns the patch of every face. A patch is a region bounded by features; patches are numbered in the order of
+    /// their lowest faces.
     pub fn patches(&self, topology: &Topology) -> Vec<u32> {
         let mut patches = vec![u32::MAX; topology.face_slots()];
         let mut count = 0;
@@ -146,7 +144,7 @@ impl Features {
         self.kinds[h.index()] == Kind::Doubtful
     }
 
-    /// The film need not follow the edge after all.
+    /// Makes the edge no feature.
     pub(super) fn free(&mut self, topology: &Topology, h: HalfEdgeId) {
         self.kinds[h.index()] = Kind::Free;
         if let Some(t) = topology.twin(h) {

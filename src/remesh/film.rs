@@ -1,54 +1,42 @@
-//! What a film is built to, and what comes of it.
+//! The result of building a film.
 
 use bevy_math::Vec3;
 
-use super::isotropic;
-use crate::surface::{BuildError, BuildWarning, SurfaceSite};
+use crate::surface::{BuildWarning, SurfaceSite};
 
-/// How fine the film is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "plugin",
-    derive(bevy::reflect::Reflect),
-    reflect(Debug, Clone, PartialEq),
-    type_path = "bevy_coating::remesh"
-)]
-pub enum FilmResolution {
-    /// Remesh to about this many triangles. At least 4.
-    Triangles(u32),
-    /// Remesh to this edge length, in the surface's unit. Above 0.
-    EdgeLength(f32),
-    /// Use the mesh as it is, welded and cleaned.
-    Keep,
-}
+/// Highest number of triangles that a film may have: about 4 million. A good film of one prop needs about 10,000.
+pub const MAX_FILM_TRIANGLES: usize = 1 << 22;
 
-/// A film at rest, ready to be aged, and where each of its corners lies on the prop's surface.
+/// Film at rest as plain arrays, with the point of the prop's surface at which each of its corners lies. Made by
+/// [`build_film`](crate::remesh::build_film) and by the [test pieces](crate::remesh::sample).
+///
+/// ```
+/// use bevy_coating::remesh::sample::plate;
+///
+/// let piece = plate(50, 1)?;
+/// let film = &piece.film;
+/// // The first corner of face 0 as a point of the surface.
+/// let site = film.sites[0];
+/// let corners = piece.surface.triangles[site.triangle as usize].map(|v| piece.surface.positions[v as usize]);
+/// let point = corners[0] * site.weights.x + corners[1] * site.weights.y + corners[2] * site.weights.z;
+/// assert_eq!(point, film.positions[film.triangles[0][0] as usize]);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct BuiltFilm {
-    /// Vertex positions at rest.
+    /// Rest position of each vertex, in the space of the surface.
     pub positions: Vec<Vec3>,
-    /// Vertex indices of each face: an oriented manifold, closed or with borders, of one or several shells.
+    /// Vertex indices of each face, counter-clockwise seen from outside. The faces form an oriented manifold, closed or
+    /// with borders, of one or several shells.
     pub triangles: Vec<[u32; 3]>,
-    /// Slot of each face.
+    /// Slot of each face: see [`Surface::slots`](crate::surface::Surface::slots).
     pub slots: Vec<u32>,
-    /// Whether the face runs against the winding of the surface's triangles it lies on (winding was unified).
+    /// Whether each face has the opposite winding of the surface's triangles on which it lies, because cleaning turned
+    /// them.
     pub flipped: Vec<bool>,
-    /// Where each corner lies on the surface, three a face. All three corners of a face lie in one chart.
+    /// Points of the surface at which the corners of the faces lie, three for each face. The three points of a face lie
+    /// on the same side of every seam, so attributes can be interpolated over the face.
     pub sites: Vec<SurfaceSite>,
-    /// What the user should know.
+    /// Warnings of cleaning and remeshing.
     pub warnings: Vec<BuildWarning>,
-}
-
-impl FilmResolution {
-    /// Checks the range. `None`: keep the mesh.
-    pub(super) fn target(self) -> Result<Option<isotropic::Target>, BuildError> {
-        let refuse = |found: String, range| Err(BuildError::Resolution { found, range });
-        match self {
-            Self::Keep => Ok(None),
-            Self::Triangles(n) if n < 4 => refuse(format!("{n} triangles"), "at least 4 triangles"),
-            Self::Triangles(n) => Ok(Some(isotropic::Target::Count(n))),
-            Self::EdgeLength(l) if l.is_finite() && l > 0.0 => Ok(Some(isotropic::Target::Length(l))),
-            Self::EdgeLength(l) => refuse(format!("edge length {l}"), "a finite edge length above 0"),
-        }
-    }
 }

@@ -1,14 +1,14 @@
-//! Edge flips towards Delaunay: the diagonal of two triangles is turned if that raises their least angle.
+//! Flips edges towards a Delaunay triangulation: turns the diagonal of two triangles if that raises their least angle.
 
 use bevy_math::Vec3;
 
 use super::work_mesh::{FOLD, WorkMesh, quality};
 use crate::film::HalfEdgeId;
 
-/// Flips until nothing is gained. Features are never flipped.
+/// Flips edges until no flip improves the triangles. Features are never flipped.
 pub(super) fn flip_edges(mesh: &mut WorkMesh) {
     let mut queue: Vec<HalfEdgeId> = mesh.topology.edges().collect();
-    // Every flip raises a least angle, so the work ends by itself; rounding may still turn a pair for ever.
+    // Every flip raises a least angle, so this ends by itself, but rounding might turn one pair for ever.
     let mut budget = 10 * queue.len();
     while let Some(h) = queue.pop() {
         if budget == 0 {
@@ -23,7 +23,8 @@ pub(super) fn flip_edges(mesh: &mut WorkMesh) {
     }
 }
 
-/// [`flip_if`], but not to cut through a bend of the surface: the edge may be as far from it as before or as `limit`.
+/// Flips an edge like [`flip_if`], unless the new edge would be further from the surface than the old one and than
+/// `limit`. Returns whether it was flipped.
 pub(super) fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32, wanted: fn([Vec3; 4]) -> bool) -> bool {
     let before = mesh.stray(h);
     if !flip_if(mesh, h, wanted) {
@@ -32,13 +33,13 @@ pub(super) fn flip_closely(mesh: &mut WorkMesh, h: HalfEdgeId, limit: f32, wante
     if mesh.stray(h) <= before.max(limit) {
         return true;
     }
-    // A second turn brings the edge back, though the other way round.
+    // A second flip brings the edge back, with its ends exchanged.
     flip(mesh, h);
     false
 }
 
-/// Flips the edge between the faces (a, b, c) and (b, a, d) if `wanted`, given those four points, says so and
-/// neither features, topology nor a fold of the surface forbid it. Whether it was flipped.
+/// Flips the edge between the faces (a, b, c) and (b, a, d) if `wanted`, given those four points, says so and neither
+/// features, topology nor a fold of the surface forbid it. Returns whether it was flipped.
 fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) -> bool {
     let Some(t) = mesh.topology.twin(h) else { return false };
     if mesh.chain(h).is_some() {
@@ -64,8 +65,8 @@ fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) ->
     true
 }
 
-/// Whether the two angles over the edge sum to more than 180 degrees, and turning it raises the lower quality of
-/// the two faces (which on a bent pair the angles do not promise).
+/// Returns whether the two angles opposite the edge sum to more than 180 degrees and a flip raises the lower quality of
+/// the two faces. Where the two faces are not coplanar the angles alone do not ensure that.
 fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
     let (u, v) = (a - c, b - c);
     let (x, y) = (b - d, a - d);
@@ -80,7 +81,7 @@ fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
     after > before
 }
 
-/// Turns the edge a-b between (a, b, c) and (b, a, d) into d-c. Face ids stay.
+/// Turns the edge a-b between (a, b, c) and (b, a, d) into the edge d-c. Face ids stay.
 fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
     let Some(t) = mesh.topology.twin(h) else { return };
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)];

@@ -1,20 +1,20 @@
 //! Isotropic remeshing of any clean surface to a film of even, irregular triangles.
 //!
-//! Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling" (2004): split long edges, collapse short
-//! ones, flip towards Delaunay, relax tangentially, project back; a few rounds. Feature lines are kept
-//! ([`features`]), topology is kept ([`collapse`]), and seeded jitter keeps flat regions free of grid patterns,
-//! which cracks would follow.
+//! The method is that of Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling" (2004): a few rounds in
+//! which long edges are split, short ones are collapsed, edges are flipped towards Delaunay, and vertices are relaxed
+//! tangentially and projected back. Feature lines (`features.rs`) and topology (`collapse.rs`) are kept. Seeded jitter
+//! keeps flat regions free of grid patterns, which cracks would follow.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::{
-    MAX_FILM_TRIANGLES,
     collapse::{self, CollapseLimits},
-    film::BuiltFilm,
+    film::{BuiltFilm, MAX_FILM_TRIANGLES},
     flip, polish,
     reference::Reference,
     relax::{self, Relaxation},
+    resolution::Target,
     sites,
     split::{self, SplitLimits},
     work_mesh::WorkMesh,
@@ -24,55 +24,49 @@ use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
 /// Split and collapse thresholds over the target edge length (Botsch and Kobbelt: 4/3 and 4/5).
 const SPLIT: f32 = 4.0 / 3.0;
 const COLLAPSE: f32 = 4.0 / 5.0;
-/// How far a film edge may stray from its feature line, in target edges.
+/// Largest distance of a film edge from its feature line, in target edges.
 const DEVIATION: f32 = 0.08;
-/// How far the middle of an edge may be from the surface, in target edges, before it is split, and after a
-/// collapse; and the shortest edge that is split for it.
+/// Distance of the middle of an edge from the surface above which the edge is split, in target edges.
 const STRAY_SPLIT: f32 = 0.15;
+/// Largest such distance after a collapse.
 const STRAY_COLLAPSE: f32 = 0.1;
+/// Length of the shortest edge that is split because of its distance, in target edges.
 const STRAY_SHORTEST: f32 = 0.5;
 /// Rounds of split, collapse, flip and relax.
 const ROUNDS: usize = 10;
-/// The first of them do not look at bends of the surface.
+/// Number of first rounds that do not split edges at bends of the surface.
 const SETTLING_ROUNDS: usize = 4;
-/// Every round shakes the vertices by up to so many target edges: relaxation alone ends in crystals, with straight
-/// rows of equilateral triangles. With it a flat quad looks like blue noise with its Delaunay triangles.
+/// Largest random displacement of a vertex in each round, in target edges. Relaxation alone ends in straight rows of
+/// equilateral triangles; with the displacement a flat quad looks like the Delaunay triangulation of blue noise.
 const JITTER: f32 = 0.4;
-/// Rounds of relaxing without shaking in the end.
+/// Number of last rounds, which relax without random displacement.
 const CALM_ROUNDS: usize = 2;
-/// Rounds of repairs of thin faces.
+/// Number of rounds that repair thin faces.
 const POLISH_ROUNDS: usize = 3;
-/// Faces of this quality and better may be traded for evenness; while shaking, of this.
+/// Relaxation accepts a move that leaves no face below this quality, even if it makes the worst face worse.
 const FAIR: f32 = 0.75;
+/// The same quality while vertices are displaced at random.
 const FAIR_SHAKEN: f32 = 0.3;
-/// Mean edge that the rounds settle at, over the edge that their thresholds are made of.
+/// Ratio of the mean edge at the end to the edge length from which the thresholds are made.
 const SETTLED: f32 = 0.925;
-/// The most the target edge may grow or shrink to meet the count.
+/// Largest factor by which the target edge may grow or shrink to meet the count.
 const ADJUSTMENT: f32 = 2.0;
-/// Counts up to this share above the target are met; a target edge length fixes the count less sharply.
+/// Share by which the count may be above its target without a warning.
 const COUNT_TOLERANCE: f64 = 0.05;
+/// The same share if the target is an edge length, which fixes the count less sharply.
 const LENGTH_TOLERANCE: f64 = 0.25;
 
-/// What to remesh to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Target {
-    /// This many triangles.
-    Count(u32),
-    /// This edge length.
-    Length(f32),
-}
-
-/// Side of the equilateral triangle of this area.
+/// Returns the side of the equilateral triangle with this area.
 pub(super) fn edge_of_area(area: f64) -> f32 {
     (area * 4.0 / 3.0_f64.sqrt()).sqrt() as f32
 }
 
-/// Number of equilateral triangles of this side that cover the area.
+/// Returns the number of equilateral triangles with this side that cover the area.
 pub(super) fn count_of_edge(area: f64, edge: f32) -> f64 {
     area * 4.0 / (3.0_f64.sqrt() * f64::from(edge) * f64::from(edge))
 }
 
-/// Remeshes the surface. Where features or topology do not let the film be as coarse as wanted it is finer, with a
+/// Remeshes the surface. Where features or topology do not allow a film as coarse as asked for, it is finer and has a
 /// warning.
 ///
 /// # Errors
@@ -109,13 +103,13 @@ pub(super) fn remesh(
 }
 
 fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
-    // A count is approached from the fine side: what the first collapses lose of a scan never comes back.
+    // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
     let mut edge = match target {
         Target::Count(_) => length,
         Target::Length(_) => length / SETTLED,
     };
     for round in 0..ROUNDS {
-        // Early on the mesh is still too coarse or too fine for its edges to tell bends.
+        // In the first rounds the edges are still too long or too short to judge bends by them.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
         split::split_edges(mesh, SplitLimits { stray, ..cuts(edge) }, rng);
         flip::flip_edges(mesh);

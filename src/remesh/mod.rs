@@ -1,10 +1,11 @@
-//! From a surface to a film at rest: near-equal, irregular triangles that keep the prop's creases, borders and seams.
+//! Remeshing: builds a film at rest over a surface, of near-equal, irregular triangles that keep the prop's creases,
+//! borders and seams (VC 3.3).
 //!
 //! ```text
 //! Surface --clean--> CleanSurface --remesh (or keep)--> BuiltFilm
 //! ```
 //!
-//! Nothing here knows Bevy: a [`Surface`] is plain arrays, so the same code serves the plugin, baking and tests.
+//! A [`Surface`] is plain arrays, so the same code serves the plugin, baking and tests.
 
 mod attributes;
 mod chains;
@@ -18,6 +19,7 @@ mod polish;
 mod project;
 mod reference;
 mod relax;
+mod resolution;
 pub mod sample;
 mod sites;
 mod split;
@@ -26,20 +28,39 @@ mod tests;
 mod topology;
 mod work_mesh;
 
-pub use film::{BuiltFilm, FilmResolution};
+pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
+pub use resolution::FilmResolution;
 
 use crate::surface::{BuildError, Surface, clean};
 
-/// Most triangles a film may have: 4 million, 400 times what a film of good looks needs.
-pub const MAX_FILM_TRIANGLES: usize = 1 << 22;
-
-/// Builds the film of a surface: cleans it, remeshes it to the resolution (or keeps it), and finds where each
-/// corner of the film lies on the surface. The seed draws the remeshing's irregularity; the same input and seed
-/// give the same film, to the bit.
+/// Builds the film of a surface: cleans the surface, remeshes it to the resolution (or keeps its triangles), and finds
+/// the point of the surface at which each corner of the film lies.
+///
+/// The seed draws the irregularity of the triangles. The same surface, resolution and seed give the same film, to the
+/// bit.
 ///
 /// # Errors
-/// Whatever [`clean`] refuses; [`BuildError::Resolution`] for a resolution that makes no sense;
-/// [`BuildError::TooLarge`] for more than [`MAX_FILM_TRIANGLES`].
+/// The errors of [`clean`], [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
+/// the film would have more than [`MAX_FILM_TRIANGLES`].
+///
+/// ```
+/// use bevy_coating::{film::FilmMesh, remesh::{FilmResolution, build_film}, surface::Surface};
+/// use bevy_math::Vec3;
+///
+/// // A unit square of two triangles becomes a film of about a hundred.
+/// let square = Surface {
+///     positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+///     triangles: vec![[0, 1, 2], [0, 2, 3]],
+///     ..Surface::default()
+/// };
+/// let film = build_film(&square, FilmResolution::Triangles(100), 7)?;
+/// assert!((80..120).contains(&film.triangles.len()));
+/// assert_eq!(film.sites.len(), 3 * film.triangles.len());
+///
+/// let mesh = FilmMesh::new(film.positions, &film.triangles).unwrap();
+/// assert!((mesh.geometry.rest_area - 1.0).abs() < 1e-4);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn build_film(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
     let target = resolution.target()?;
     let clean = clean(surface)?;

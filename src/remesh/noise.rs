@@ -1,7 +1,7 @@
-//! Telling the creases of a shape from the noise of a scan.
+//! Tells the creases of a shape from the noise of a scan.
 //!
-//! Sharp edges between faces smaller than the film's are creases only if they are sharp at the film's scale too,
-//! and long enough to see. What is dropped here the film runs smoothly across.
+//! Sharp edges between faces smaller than the film's are creases only if they are sharp at the film's scale too and
+//! long enough to see. The film runs smoothly across the edges that are dropped here.
 
 use bevy_math::Vec3;
 
@@ -9,20 +9,20 @@ use super::features::{CREASE, Features};
 use super::topology::Topology;
 use crate::film::{FaceId, HalfEdgeId, VertexId};
 
-/// Creases must still be sharp between the mean normals of their two sides out to so many target edges.
+/// Radius over which the mean normals of the two sides of a crease are taken, in target edges.
 const WRINKLE_RADIUS: f32 = 1.0;
-/// The most faces of a side that are looked at.
+/// Largest number of faces of a side of which the mean normal is taken.
 const WRINKLE_FACES: usize = 400;
-/// Branches shorter than so many target edges that end in a smooth region are noise.
+/// Length below which a branch that ends in a smooth region is noise, in target edges.
 const SHORTEST_BRANCH: f32 = 1.5;
-/// So are creases that hang together over less than this and end somewhere,
+/// Length below which connected creases with a free end are noise, in target edges.
 const SHORTEST_CREASE: f32 = 4.0;
-/// and closed ones, the rims of small holes and bosses, that are shorter than this.
+/// Length below which closed creases (the rims of small holes and bosses) are noise, in target edges.
 const SHORTEST_RIM: f32 = 1.0;
-/// Each wrinkle that goes opens the view of the next.
+/// Number of rounds. A wrinkle that is dropped lets the sides of its neighbours reach further.
 const ROUNDS: usize = 4;
 
-/// Frees the doubtful edges that are noise.
+/// Makes the doubtful edges that are noise no features.
 pub(super) fn drop_noise(features: &mut Features, topology: &Topology, positions: &[Vec3], target: f32) {
     for _ in 0..ROUNDS {
         drop_wrinkles(features, topology, positions, target);
@@ -31,7 +31,7 @@ pub(super) fn drop_noise(features: &mut Features, topology: &Topology, positions
     drop_short_creases(features, topology, positions, target);
 }
 
-/// Number of features at each vertex.
+/// Returns the number of feature edges at each vertex.
 fn degrees(features: &Features, topology: &Topology) -> Vec<u32> {
     let mut degrees = vec![0; topology.vertex_slots()];
     for h in topology.edges().filter(|&h| features.is_kept(h)) {
@@ -41,8 +41,8 @@ fn degrees(features: &Features, topology: &Topology) -> Vec<u32> {
     degrees
 }
 
-/// Drops creases that are sharp only at the scale of a scan's noise: those whose sides, seen out to about
-/// `target`, meet in less than the crease angle. A side does not reach around another feature.
+/// Drops creases that are sharp only at the scale of a scan's noise: the mean normals of their two sides, taken over
+/// about the length `target`, differ by less than the crease angle. A side does not extend across another feature.
 fn drop_wrinkles(features: &mut Features, topology: &Topology, positions: &[Vec3], target: f32) {
     let radius = WRINKLE_RADIUS * target;
     let mut side = Vec::new();
@@ -104,8 +104,8 @@ fn drop_short_branches(features: &mut Features, topology: &Topology, positions: 
             length += positions[at.index()].distance(positions[topology.target(h).index()]);
             at = topology.target(h);
         }
-        // A branch that runs into another feature goes; one that ends freely at both ends is left to the
-        // measure of whole creases.
+        // A branch that runs into another feature is dropped. One with two free ends is a crease of its own, which
+        // `drop_short_creases` judges.
         if length < shortest && degrees[at.index()] > 2 {
             for h in branch {
                 degrees[topology.origin(h).index()] -= 1;

@@ -1,23 +1,23 @@
-//! Last repairs: the few thin faces that even relaxation leaves, at corners of features and in folds.
+//! Repairs the few thin faces that relaxation leaves at corners of features and in folds.
 
 use bevy_math::Vec3;
 
 use super::collapse::{CollapseLimits, try_collapse};
 use super::flip::flip_closely;
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh, quality};
+use super::work_mesh::{SurfacePoint, WorkMesh, quality};
 use crate::film::{FaceId, VertexId};
 
-/// Faces below this quality are worked on: least angles under about 30 degrees.
+/// Quality below which a face is repaired: its least angle is below about 30 degrees.
 const THIN: f32 = 0.7;
 /// Lengths of the trial steps, as shares of the target edge.
 const STEPS: [f32; 3] = [0.2, 0.07, 0.025];
-/// Directions of the trial steps: around a circle by sixths.
+/// Directions of the trial steps: six around a circle.
 const DIRECTIONS: [(f32, f32); 6] =
     [(1.0, 0.0), (0.5, 0.866), (-0.5, 0.866), (-1.0, 0.0), (-0.5, -0.866), (0.5, -0.866)];
 
-/// Improves thin faces: first by flips and collapses, then by moving their vertices to wherever the worst face
-/// around them is best.
+/// Improves thin faces, first by flips and collapses, then by moving their vertices so that the worst face around each
+/// is as good as possible.
 pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
     for f in thin_faces(mesh) {
         if !mesh.topology.is_live(f) || quality_of(mesh, f) >= THIN {
@@ -53,46 +53,48 @@ fn quality_of(mesh: &WorkMesh, f: FaceId) -> f32 {
     quality(a, b, c)
 }
 
-/// Whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
+/// Returns whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.
 fn raises_quality([a, b, c, d]: [Vec3; 4]) -> bool {
     let before = quality(a, b, c).min(quality(b, a, d));
     let after = quality(c, d, b).min(quality(d, c, a));
     after > before + 0.02
 }
 
-/// Moves a vertex by trial steps to where the worst face around it is best.
+/// Moves a vertex by trial steps so that the worst face around it is as good as possible.
 fn improve(mesh: &mut WorkMesh, v: VertexId, edge: f32, limit: f32) {
     let mut best = mesh.quality(v);
     let mut stray = limit.max(mesh.stray_around(v));
     let reference = mesh.reference;
     for step in STEPS.map(|s| s * edge) {
-        let trials: Vec<(Vec3, Place)> = match mesh.place(v) {
-            Place::Fixed(_) => return,
-            Place::Line { chain, s } => {
+        let trials: Vec<(Vec3, SurfacePoint)> = match mesh.surface_point(v) {
+            SurfacePoint::Fixed(_) => return,
+            SurfacePoint::Line { chain, s } => {
                 let mut ends = super::collapse::chain_neighbours(mesh, v, chain).map(|n| mesh.arc_length(n, chain));
                 let (Some(a), Some(b)) = (ends.next(), ends.next()) else { return };
                 let margin = 0.2 * (a - b).abs();
                 [s - step, s + step]
                     .into_iter()
                     .filter(|&s| s > a.min(b) + margin && s < a.max(b) - margin)
-                    .map(|s| (reference.chains.position(reference.positions, chain, s), Place::Line { chain, s }))
+                    .map(|s| {
+                        (reference.chains.position(reference.positions, chain, s), SurfacePoint::Line { chain, s })
+                    })
                     .collect()
             }
-            Place::Free(start) => {
+            SurfacePoint::Free(start) => {
                 let normal: Vec3 = mesh.topology.faces_around(v).map(|f| mesh.area_vector(f)).sum();
                 let Some(normal) = normal.try_normalize() else { return };
                 let (x, y) = normal.any_orthonormal_pair();
                 DIRECTIONS
                     .map(|(i, j)| project(reference, mesh.position(v) + (x * i + y * j) * step, start))
-                    .map(|foot| (foot.position, Place::Free(foot.triangle)))
+                    .map(|foot| (foot.position, SurfacePoint::Free(foot.triangle)))
                     .into()
             }
         };
-        for (position, place) in trials {
+        for (position, surface_point) in trials {
             if let Some(quality) = mesh.quality_at(v, position, [None, None])
                 && quality > best
             {
-                let mut other = (position, place);
+                let mut other = (position, surface_point);
                 mesh.exchange(v, &mut other);
                 let strays = mesh.stray_around(v);
                 if strays <= stray {

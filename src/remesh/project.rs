@@ -1,15 +1,15 @@
-//! Projection onto the surface by walking it.
+//! Projects points onto the surface by walking over it.
 //!
-//! The nearest point is sought by descending over neighbouring triangles from the last known one, never across a
-//! feature. A point so stays in its own patch and on its own sheet of a thin wall, which the nearest triangle in
-//! space would not promise, and a walk is a few steps long.
+//! The walk starts at the last known triangle and goes to neighbouring triangles that are closer, never across a
+//! feature. So a point stays in its own patch and on its own side of a thin wall, which a search for the nearest
+//! triangle in space would not ensure. A walk is a few steps long.
 
 use bevy_math::Vec3;
 
 use super::reference::Reference;
 use crate::film::{FaceId, HalfEdgeId};
 
-/// A point on the clean surface.
+/// Point on the clean surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     pub triangle: FaceId,
@@ -18,10 +18,10 @@ pub(super) struct Foot {
     pub weights: Vec3,
 }
 
-/// Walks longer than this end where they are.
+/// Number of steps after which a walk ends.
 const LONGEST_WALK: usize = 1000;
 
-/// The point of the surface nearest to `p`, walking from `start`.
+/// Returns the point of the surface nearest to `p`, found by a walk from `start`.
 pub(super) fn project(reference: &Reference, p: Vec3, start: FaceId) -> Foot {
     let mut foot = nearest_on_triangle(reference, p, start);
     let mut distance = foot.position.distance_squared(p);
@@ -51,7 +51,7 @@ fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
     let w = foot.weights.to_array();
     let across = |h: HalfEdgeId| topology.twin(h).filter(|_| !reference.is_feature(h));
     for k in 0..3 {
-        // Half-edge k faces corner k + 2: the point lies on it when that corner's weight is none.
+        // Half-edge k is opposite corner k + 2: the point lies on it if the weight of that corner is 0.
         if w[(k + 2) % 3] > 0.0 {
             continue;
         }
@@ -82,13 +82,13 @@ fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
     }
 }
 
-/// Distance of `p` from a triangle.
+/// Returns the distance of `p` from a triangle.
 pub(super) fn distance_to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     let weights = nearest_weights(p, a, b, c);
     p.distance(a * weights.x + b * weights.y + c * weights.z)
 }
 
-/// The point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
+/// Returns the point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
 fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
     let [a, b, c] = reference.triangles[f.index()];
     let weights = nearest_weights(p, a, b, c);
@@ -126,7 +126,7 @@ fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
         let t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
         return Vec3::new(0.0, 1.0 - t, t);
     }
-    // In double precision: the sums above lose too much on slivers.
+    // In double precision, since the sums above are too inexact on slivers.
     let (ab, ac, ap) = (ab.as_dvec3(), ac.as_dvec3(), ap.as_dvec3());
     let normal = ab.cross(ac);
     let square = normal.length_squared();

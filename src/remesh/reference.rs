@@ -1,26 +1,28 @@
-//! The clean surface that the film is pulled back to, with its features.
+//! The clean surface, with its features, onto which the film is projected.
 
 use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
 use super::features::Features;
+use super::noise::drop_noise;
 use super::topology::Topology;
 use crate::{
     film::HalfEdgeId,
     surface::{CleanSurface, Surface},
 };
 
+/// Clean surface with its features, onto which the film is projected.
 pub(super) struct Reference<'a> {
     pub topology: Topology,
     pub positions: &'a [Vec3],
-    /// Corner positions of each triangle: projection looks at little else.
+    /// Corner positions of each triangle, stored together because projection reads little else.
     pub triangles: Vec<[Vec3; 3]>,
-    /// The chain that each half-edge lies on, or [`NO_CHAIN`].
+    /// Chain that each half-edge lies on, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
     pub chains: Chains,
-    /// Vertices that the film keeps in place.
+    /// Whether each vertex is fixed: the film has a vertex there.
     pub fixed: Vec<bool>,
-    /// The patch of each triangle.
+    /// Patch of each triangle: see `Features::patches`.
     pub patches: Vec<u32>,
 }
 
@@ -36,7 +38,8 @@ impl<'a> Reference<'a> {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        let mut features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        drop_noise(&mut features, &topology, positions, target);
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);
@@ -44,13 +47,13 @@ impl<'a> Reference<'a> {
         Self { topology, positions, triangles, chain_of, chains, fixed, patches }
     }
 
-    /// Whether the film must follow this edge.
+    /// Returns whether the film must follow this edge.
     #[inline]
     pub fn is_feature(&self, h: HalfEdgeId) -> bool {
         self.chain_of[h.index()] != NO_CHAIN
     }
 
-    /// How far a chain strays from the chord between two arc lengths.
+    /// Returns the largest distance of a chain from the chord between two arc lengths.
     pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
         self.chains.deviation(self.positions, chain, from, to)
     }

@@ -1,5 +1,5 @@
-//! Tangential relaxation: vertices move towards the middle of their neighbours, along their line or over their
-//! patch, and are put back on the surface.
+//! Relaxes vertices tangentially: moves them towards the middle of their neighbours, along their feature line or over
+//! their patch, and projects them back onto the surface.
 
 use bevy_math::Vec3;
 use rand::RngExt;
@@ -7,20 +7,22 @@ use rand_chacha::ChaCha8Rng;
 
 use super::collapse::chain_neighbours;
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::VertexId;
 
+/// Parameters of one relaxation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relaxation {
-    /// Share of the way to the middle.
+    /// Share of the way to the middle that a vertex moves.
     pub step: f32,
-    /// Length of the random displacement added to it.
+    /// Largest length of the random displacement that is added, in each direction.
     pub jitter: f32,
-    /// How far a feature edge may stray from its line.
+    /// Largest distance of a feature edge from its line.
     pub deviation: f32,
-    /// How far the middle of an edge may be from the surface.
+    /// Largest distance of the middle of an edge from the surface.
     pub stray: f32,
-    /// Moves that leave no face worse than this are accepted; others must not make the worst face worse.
+    /// Quality that no face may fall below. A move after which a face does is accepted only if the worst face does not
+    /// get worse.
     pub quality: f32,
 }
 
@@ -30,10 +32,10 @@ pub(super) fn relax(mesh: &mut WorkMesh, settings: Relaxation, rng: &mut ChaCha8
         if mesh.topology.outgoing(v).is_none() {
             continue;
         }
-        match mesh.place(v) {
-            Place::Fixed(_) => {}
-            Place::Line { chain, s } => relax_on_line(mesh, v, chain, s, settings, rng),
-            Place::Free(_) => relax_on_patch(mesh, v, settings, rng),
+        match mesh.surface_point(v) {
+            SurfacePoint::Fixed(_) => {}
+            SurfacePoint::Line { chain, s } => relax_on_line(mesh, v, chain, s, settings, rng),
+            SurfacePoint::Free(_) => relax_on_patch(mesh, v, settings, rng),
         }
     }
 }
@@ -56,21 +58,21 @@ fn relax_on_line(mesh: &mut WorkMesh, v: VertexId, chain: u32, s: f32, settings:
             continue;
         }
         let position = reference.chains.position(reference.positions, chain, moved);
-        if accept(mesh, v, position, Place::Line { chain, s: moved }, settings) {
+        if accept(mesh, v, position, SurfacePoint::Line { chain, s: moved }, settings) {
             return;
         }
     }
 }
 
 fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &mut ChaCha8Rng) {
-    let Place::Free(start) = mesh.place(v) else { return };
+    let SurfacePoint::Free(start) = mesh.surface_point(v) else { return };
     let here = mesh.position(v);
     let (mut middle, mut weight, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
     for f in mesh.topology.faces_around(v) {
         let area_vector = mesh.area_vector(f);
         let area = area_vector.length();
         let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
-        // The two far corners only: with the near one the centroid would drag its feet.
+        // Only the mean of the two far corners, since the vertex itself would slow the centroid down.
         middle += (a + b + c - here) * (0.5 * area);
         weight += area;
         normal += area_vector;
@@ -84,7 +86,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
     let wanted = wanted - normal * normal.dot(wanted);
     for step in [1.0, 0.5, 0.25] {
         let foot = project(mesh.reference, here + wanted * step, start);
-        if accept(mesh, v, foot.position, Place::Free(foot.triangle), settings) {
+        if accept(mesh, v, foot.position, SurfacePoint::Free(foot.triangle), settings) {
             return;
         }
     }
@@ -92,7 +94,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
 
 /// Moves the vertex unless a face folds, the worst face gets worse, or an edge comes to cut through a bend of the
 /// surface.
-fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settings: Relaxation) -> bool {
+fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, surface_point: SurfacePoint, settings: Relaxation) -> bool {
     let fits = mesh
         .quality_at(v, position, [None, None])
         .is_some_and(|quality| quality >= settings.quality || quality >= mesh.quality(v));
@@ -100,7 +102,7 @@ fn accept(mesh: &mut WorkMesh, v: VertexId, position: Vec3, place: Place, settin
         return false;
     }
     let was_bent = mesh.is_bent(v);
-    let mut other = (position, place);
+    let mut other = (position, surface_point);
     mesh.exchange(v, &mut other);
     if !was_bent && !mesh.is_bent(v) {
         return true;

@@ -1,8 +1,8 @@
-//! From the working mesh to the film: compact arrays, and where each corner lies on the prop's surface.
+//! Makes the film of the working mesh: compact arrays, with the point of the prop's surface under each corner.
 
+use super::film::{BuiltFilm, MAX_FILM_TRIANGLES};
 use super::project::Foot;
 use super::work_mesh::WorkMesh;
-use super::{BuiltFilm, MAX_FILM_TRIANGLES};
 use crate::{
     film::VertexId,
     surface::{BuildError, CleanSurface, Surface, SurfaceSite},
@@ -24,7 +24,7 @@ pub(super) fn finish(mesh: &WorkMesh, surface: &Surface, clean: &CleanSurface) -
         film.triangles.push(triangle);
         let feet = f.half_edges().map(|h| mesh.corner(h));
         film.sites.extend(feet.iter().map(|foot| site(clean, foot)));
-        // Slots and turned winding are the same over a patch: any corner tells.
+        // Slots and turned winding are the same all over a patch, so any corner will do.
         let triangle = feet[0].triangle.index();
         let source = clean.source[triangle];
         film.slots.push(surface.slots.get(source as usize).copied().unwrap_or_default());
@@ -33,7 +33,7 @@ pub(super) fn finish(mesh: &WorkMesh, surface: &Surface, clean: &CleanSurface) -
     film
 }
 
-/// The clean mesh itself as a film.
+/// Makes a film of the clean mesh itself.
 pub(super) fn keep(surface: &Surface, clean: &CleanSurface) -> Result<BuiltFilm, BuildError> {
     let found = clean.triangles.len();
     if found > MAX_FILM_TRIANGLES {
@@ -50,6 +50,8 @@ pub(super) fn keep(surface: &Surface, clean: &CleanSurface) -> Result<BuiltFilm,
 }
 
 /// Turns weights of a clean triangle into weights of the surface triangle it came from.
+///
+/// The corners of a clean triangle may lie between those of its source.
 fn site(clean: &CleanSurface, foot: &Foot) -> SurfaceSite {
     let triangle = foot.triangle.index();
     let [a, b, c] = clean.sites[triangle].map(|site| site.weights);

@@ -1,34 +1,35 @@
-//! Edge splits.
+//! Splits edges.
 
 use bevy_math::Vec3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::project::project;
-use super::work_mesh::{Place, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::{HalfEdgeId, VertexId};
 
-/// Share of a face's area that each half must have after a split.
+/// Least share of a face's area that each half must have after a split.
 const LEAST_HALF: f32 = 0.1;
 
-/// How far from the middle a cut may fall, as a share of the edge: equal halves would make a grid of a flat quad.
+/// Width of the range around the middle of an edge in which the cut is drawn, as a share of the edge. Cuts in the
+/// middle would make a grid of a flat quad.
 const SPREAD: f32 = 0.4;
 
-/// Which edges are split, and where.
+/// Limits above which edges are split.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SplitLimits {
     /// Edges longer than this are split.
     pub longest: f32,
-    /// So are those whose middle is further from the surface than this, unless shorter than `shortest`.
+    /// Edges whose middle is further from the surface than this are split too, if they are longer than `shortest`.
     pub stray: f32,
-    /// See `stray`.
+    /// Edges up to this length are not split because of `stray`.
     pub shortest: f32,
 }
 
-/// Splits edges that are too long, the longest first, until none is left, and then once those that cut through
-/// a bend of the surface.
+/// Splits edges that are too long, the longest first, until none is left. Then splits edges that cut through a bend of
+/// the surface, once.
 pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut ChaCha8Rng) {
-    // Each round halves the longest edges: 40 are more than any finite mesh needs.
+    // Each round about halves the longest edges, so 40 rounds are more than any mesh needs.
     for _ in 0..40 {
         let long = mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
         if !split_all(mesh, long, limits.longest, usize::MAX, rng) {
@@ -53,7 +54,7 @@ pub(super) fn split_longest_edges(mesh: &mut WorkMesh, least: f32, count: usize,
     split_all(mesh, long, least, count, rng);
 }
 
-/// Splits the edges that are still longer than `least` when their turn comes. Whether any was.
+/// Splits the edges that are still longer than `least` when their turn comes. Returns whether any edge was split.
 fn split_all(
     mesh: &mut WorkMesh,
     mut edges: Vec<(f32, HalfEdgeId)>,
@@ -75,12 +76,14 @@ fn split_all(
     any
 }
 
-/// Splits an edge at about the share `cut` of its length. Half-edge `h` keeps its origin and ends at the new
-/// vertex; faces on both sides keep their ids and one is added on each. `None`, and nothing done, where the edge is
-/// too short to be cut, or the surface under it folds so that the new faces would.
+/// Splits an edge at about the share `cut` of its length and returns the new vertex. Half-edge `h` keeps its origin and
+/// ends at the new vertex. The faces on both sides keep their ids, and one face is added on each side.
+///
+/// Returns `None`, and changes nothing, if the edge is too short, or if the surface under it is folded so that the new
+/// faces would be folded too.
 pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<VertexId> {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
-    let (position, place) = match mesh.chain(h) {
+    let (position, surface_point) = match mesh.chain(h) {
         Some(chain) => {
             let (from, to) = (mesh.arc_length(a, chain), mesh.arc_length(b, chain));
             let s = from + (to - from) * cut;
@@ -88,12 +91,12 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
             if position == mesh.position(a) || position == mesh.position(b) {
                 return None;
             }
-            (position, Place::Line { chain, s })
+            (position, SurfacePoint::Line { chain, s })
         }
         None => foot_of_cut(mesh, h, cut)?,
     };
     let twin = mesh.topology.twin(h);
-    let m = mesh.add_vertex(position, place);
+    let m = mesh.add_vertex(position, surface_point);
     let beyond = cut_face(mesh, h, m);
     match twin {
         Some(t) => {
@@ -112,9 +115,9 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
     Some(m)
 }
 
-/// The place on the surface under a point of an edge. The walk there may be caught in a fold of the surface, so it is
-/// tried from all four corners around the edge and the nearest place taken that leaves proper faces.
-fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)> {
+/// Returns the point of the surface under a point of an edge, if any leaves proper faces. A walk may be caught in a
+/// fold of the surface, so it is tried from all four corners around the edge, and the nearest result is used.
+fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, SurfacePoint)> {
     let twin = mesh.topology.twin(h);
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)].map(|v| mesh.position(v));
     let point = a.lerp(b, cut);
@@ -122,8 +125,8 @@ fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)
     corners
         .into_iter()
         .flatten()
-        .map(|corner| match mesh.place(mesh.topology.origin(corner)) {
-            Place::Free(triangle) => triangle,
+        .map(|corner| match mesh.surface_point(mesh.topology.origin(corner)) {
+            SurfacePoint::Free(triangle) => triangle,
             _ => mesh.corner(corner).triangle,
         })
         .map(|start| project(mesh.reference, point, start))
@@ -132,10 +135,11 @@ fn foot_of_cut(mesh: &WorkMesh, h: HalfEdgeId, cut: f32) -> Option<(Vec3, Place)
             stands(h) && twin.is_none_or(stands)
         })
         .min_by(|x, y| x.position.distance_squared(point).total_cmp(&y.position.distance_squared(point)))
-        .map(|foot| (foot.position, Place::Free(foot.triangle)))
+        .map(|foot| (foot.position, SurfacePoint::Free(foot.triangle)))
 }
 
-/// Whether the two halves of the face of `h`, cut to the point `m` near `h`, face its way and have some area.
+/// Returns whether the face of `h`, cut at the point `m` near `h`, falls into two halves that face the same way as the
+/// face and are not too small.
 fn halves_stand(mesh: &WorkMesh, h: HalfEdgeId, m: Vec3) -> bool {
     let [a, b, c] = [h, h.next(), h.previous()].map(|h| mesh.position(mesh.topology.origin(h)));
     let whole = (b - a).cross(c - a);
@@ -144,8 +148,8 @@ fn halves_stand(mesh: &WorkMesh, h: HalfEdgeId, m: Vec3) -> bool {
         .all(|half| half.dot(whole) > LEAST_HALF * whole.length_squared() && half.dot(whole) > 0.0)
 }
 
-/// Cuts the face of `h` from the new vertex `m` on `h` to the opposite corner. Returns the half-edge from `m` on
-/// to the old target.
+/// Cuts the face of `h` from the new vertex `m` on `h` to the opposite corner. Returns the half-edge from `m` to the
+/// old target of `h`.
 fn cut_face(mesh: &mut WorkMesh, h: HalfEdgeId, m: VertexId) -> HalfEdgeId {
     let (n, p) = (h.next(), h.previous());
     let (b, c) = (mesh.topology.origin(n), mesh.topology.origin(p));

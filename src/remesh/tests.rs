@@ -12,7 +12,7 @@ use crate::{
     surface::{BuildError, BuildWarning, Surface},
 };
 
-/// What remeshing must not change.
+/// Properties that remeshing must not change.
 #[derive(Debug, PartialEq, Eq)]
 struct Shape {
     euler: i64,

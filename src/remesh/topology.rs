@@ -1,11 +1,12 @@
-//! Connectivity of a triangle mesh under edit: a corner table with twins. It knows no positions.
+//! Connectivity of the triangle mesh that remeshing edits: half-edges with origins and twins.
 //!
-//! Face `f` owns half-edges `3f`, `3f + 1` and `3f + 2`. A dead face has no origins, a dead vertex no outgoing
-//! half-edge. Of a border vertex, the outgoing half-edge is the one without a twin, so that turning
-//! counter-clockwise from it meets every face around the vertex.
+//! Face `f` owns half-edges `3 * f`, `3 * f + 1` and `3 * f + 2`. A removed face has no origins, and a removed vertex
+//! has no outgoing half-edge; both are used again. The outgoing half-edge of a border vertex is the one without a twin,
+//! so that a turn counter-clockwise from it meets every face around the vertex.
 
 use crate::film::{FaceId, HalfEdgeId, VertexId};
 
+/// Connectivity of a triangle mesh whose edges can be split, collapsed and flipped.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Topology {
     origins: Vec<VertexId>,
@@ -55,7 +56,7 @@ impl Topology {
         self.origins[h.next().index()]
     }
 
-    /// The corner of the half-edge's face that faces it.
+    /// Returns the corner of the half-edge's face that does not lie on it.
     #[inline]
     pub fn opposite(&self, h: HalfEdgeId) -> VertexId {
         self.origins[h.previous().index()]
@@ -66,7 +67,7 @@ impl Topology {
         self.twins[h.index()].get()
     }
 
-    /// One of the vertex's outgoing half-edges: the clockwise-most at a border.
+    /// Returns one of the vertex's outgoing half-edges: on a border the one without a twin.
     #[inline]
     pub fn outgoing(&self, v: VertexId) -> Option<HalfEdgeId> {
         self.outgoing[v.index()].get()
@@ -82,12 +83,12 @@ impl Topology {
         self.origins[3 * f.index()] != VertexId::NONE
     }
 
-    /// Number of face slots, dead ones included.
+    /// Returns the number of face ids in use or removed.
     pub fn face_slots(&self) -> usize {
         self.origins.len() / 3
     }
 
-    /// Number of vertex slots, dead ones included.
+    /// Returns the number of vertex ids in use or removed.
     pub fn vertex_slots(&self) -> usize {
         self.outgoing.len()
     }
@@ -96,7 +97,7 @@ impl Topology {
         self.face_slots() - self.dead_faces.len()
     }
 
-    /// Live half-edges, one an edge, in index order.
+    /// Iterates over all edges, each given by the lower of its half-edges, in index order.
     pub fn edges(&self) -> impl Iterator<Item = HalfEdgeId> + '_ {
         (0..self.origins.len())
             .map(HalfEdgeId::new)
@@ -107,19 +108,19 @@ impl Topology {
         (0..self.face_slots()).map(FaceId::new).filter(|&f| self.is_live(f))
     }
 
-    /// The outgoing half-edge that follows `h` counter-clockwise around their origin.
+    /// Returns the half-edge that follows `h` counter-clockwise around its origin.
     #[inline]
     pub fn counter_clockwise(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.twin(h.previous())
     }
 
-    /// The outgoing half-edge that precedes `h`.
+    /// Returns the half-edge that follows `h` clockwise around its origin.
     #[inline]
     pub fn clockwise(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.twin(h).map(HalfEdgeId::next)
     }
 
-    /// Outgoing half-edges, one a face around the vertex, counter-clockwise.
+    /// Iterates over the outgoing half-edges of the vertex, one for each face, counter-clockwise.
     pub fn ring(&self, v: VertexId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let first = self.outgoing(v);
         std::iter::successors(first, move |&h| self.counter_clockwise(h).filter(|&n| Some(n) != first))
@@ -133,7 +134,7 @@ impl Topology {
         self.outgoing(v).is_some_and(|h| self.twin(h).is_none())
     }
 
-    /// Neighbours of the vertex, counter-clockwise.
+    /// Iterates over the neighbours of the vertex, counter-clockwise.
     pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         let last = self
             .outgoing(v)
@@ -143,7 +144,7 @@ impl Topology {
         self.ring(v).map(|h| self.target(h)).chain(last)
     }
 
-    /// The half-edge from `a` to `b`, or else from `b` to `a`.
+    /// Returns the half-edge from `a` to `b`, or else the one from `b` to `a`.
     pub fn edge_between(&self, a: VertexId, b: VertexId) -> Option<HalfEdgeId> {
         self.ring(a)
             .find_map(|h| if self.target(h) == b { Some(h) } else { (self.opposite(h) == b).then_some(h.previous()) })
@@ -175,7 +176,7 @@ impl Topology {
         f
     }
 
-    /// Takes the face out; its neighbours' twins are the caller's to mend.
+    /// Removes the face. The caller must link the twins of its neighbours.
     pub fn remove_face(&mut self, f: FaceId) {
         for h in f.half_edges() {
             self.origins[h.index()] = VertexId::NONE;
@@ -194,7 +195,7 @@ impl Topology {
         self.twins[t.index()] = h;
     }
 
-    /// Makes `t` the twin of `h`, or `h` a border.
+    /// Makes `h` and `t` twins, or makes `h` a border half-edge.
     pub fn link_or_open(&mut self, h: HalfEdgeId, t: Option<HalfEdgeId>) {
         match t {
             Some(t) => self.link(h, t),
@@ -202,7 +203,7 @@ impl Topology {
         }
     }
 
-    /// Sets the outgoing half-edge of `v`, given any of them.
+    /// Sets the outgoing half-edge of `v`, given any half-edge `h` that starts there.
     pub fn anchor(&mut self, v: VertexId, h: HalfEdgeId) {
         let mut first = h;
         while let Some(previous) = self.clockwise(first) {

@@ -1,4 +1,4 @@
-//! The film while it is being remeshed: connectivity, positions, and where each vertex lies on the surface.
+//! The film while it is being remeshed: connectivity, positions, and the point of the surface under each vertex.
 
 use bevy_math::Vec3;
 
@@ -8,25 +8,26 @@ use super::reference::Reference;
 use super::topology::Topology;
 use crate::film::{FaceId, HalfEdgeId, VertexId};
 
-/// How a vertex is bound to the clean surface.
+/// Part of the clean surface on which a vertex of the film lies and may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
-    /// At a vertex of the clean mesh: it never moves.
+pub(super) enum SurfacePoint {
+    /// A vertex of the clean mesh. The film vertex never moves.
     Fixed(VertexId),
-    /// On a feature line at an arc length: it moves along the line.
+    /// A feature line, at the arc length `s`. The film vertex moves along the line.
     Line { chain: u32, s: f32 },
-    /// On a triangle: it moves over the patch.
+    /// A triangle. The film vertex moves over the patch of the triangle.
     Free(FaceId),
 }
 
+/// Film while it is being remeshed, over the surface onto which it is projected.
 pub(super) struct WorkMesh<'a> {
     pub reference: &'a Reference<'a>,
     pub topology: Topology,
     pub positions: Vec<Vec3>,
-    pub places: Vec<Place>,
-    /// The chain that each half-edge follows, or [`NO_CHAIN`].
+    pub surface_points: Vec<SurfacePoint>,
+    /// Chain that each half-edge follows, or [`NO_CHAIN`].
     pub chain_of: Vec<u32>,
-    /// The patch that each face lies in.
+    /// Patch in which each face lies.
     pub patches: Vec<u32>,
 }
 
@@ -34,17 +35,17 @@ impl<'a> WorkMesh<'a> {
     /// Starts from the clean mesh itself.
     pub fn new(reference: &'a Reference<'a>) -> Self {
         let topology = reference.topology.clone();
-        let mut places: Vec<Place> = (0..topology.vertex_slots())
+        let mut surface_points: Vec<SurfacePoint> = (0..topology.vertex_slots())
             .map(VertexId::new)
             .map(|v| match topology.outgoing(v) {
-                Some(h) if !reference.fixed[v.index()] => Place::Free(h.face()),
-                _ => Place::Fixed(v),
+                Some(h) if !reference.fixed[v.index()] => SurfacePoint::Free(h.face()),
+                _ => SurfacePoint::Fixed(v),
             })
             .collect();
         for chain in 0..reference.chains.count() {
             for (v, s) in reference.chains.points(chain) {
                 if !reference.fixed[v.index()] {
-                    places[v.index()] = Place::Line { chain, s };
+                    surface_points[v.index()] = SurfacePoint::Line { chain, s };
                 }
             }
         }
@@ -52,7 +53,7 @@ impl<'a> WorkMesh<'a> {
             reference,
             topology,
             positions: reference.positions.to_vec(),
-            places,
+            surface_points,
             chain_of: reference.chain_of.clone(),
             patches: reference.patches.clone(),
         }
@@ -64,11 +65,11 @@ impl<'a> WorkMesh<'a> {
     }
 
     #[inline]
-    pub fn place(&self, v: VertexId) -> Place {
-        self.places[v.index()]
+    pub fn surface_point(&self, v: VertexId) -> SurfacePoint {
+        self.surface_points[v.index()]
     }
 
-    /// The chain that the edge follows, if it is a feature.
+    /// Returns the chain that the edge follows, if it is a feature.
     #[inline]
     pub fn chain(&self, h: HalfEdgeId) -> Option<u32> {
         Some(self.chain_of[h.index()]).filter(|&c| c != NO_CHAIN)
@@ -83,31 +84,32 @@ impl<'a> WorkMesh<'a> {
         self.position(self.topology.origin(h)).distance(self.position(self.topology.target(h)))
     }
 
-    /// Twice the area of the face times its unit normal.
+    /// Returns the unit normal of the face times twice its area.
     #[inline]
     pub fn area_vector(&self, f: FaceId) -> Vec3 {
         let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
         (b - a).cross(c - a)
     }
 
-    /// Arc length of a vertex on a chain that passes or ends there.
+    /// Returns the arc length of a vertex on a chain that passes or ends there.
     pub fn arc_length(&self, v: VertexId, chain: u32) -> f32 {
-        match self.place(v) {
-            Place::Line { s, .. } => s,
-            Place::Fixed(v) => self.reference.chains.end(chain, v),
-            Place::Free(_) => 0.0,
+        match self.surface_point(v) {
+            SurfacePoint::Line { s, .. } => s,
+            SurfacePoint::Fixed(v) => self.reference.chains.end(chain, v),
+            SurfacePoint::Free(_) => 0.0,
         }
     }
 
-    /// The point of the surface under the face corner from which `h` leaves, on the face's own side of every
+    /// Returns the point of the surface under the corner of a face at which `h` starts, on the face's own side of every
     /// feature.
     ///
-    /// Turning clockwise about the vertex one meets the feature edge that opens the corner's sector; the film runs
-    /// the same way round as the surface, so the same side of the same chain opens the sector on the surface.
+    /// The features at a vertex divide the faces around it into sectors. A turn clockwise from `h` meets the feature
+    /// that begins the sector of the face. The film has the same orientation as the surface, so the same side of the
+    /// same chain begins that sector on the surface.
     pub fn corner(&self, h: HalfEdgeId) -> Foot {
         let v = self.topology.origin(h);
         let position = self.position(v);
-        if let Place::Free(start) = self.place(v) {
+        if let SurfacePoint::Free(start) = self.surface_point(v) {
             return project(self.reference, position, start);
         }
         let mut opening = h;
@@ -123,8 +125,8 @@ impl<'a> WorkMesh<'a> {
         });
         let Some(side) = side else {
             // A fixed vertex without features: an isolated one.
-            let start = match self.place(v) {
-                Place::Fixed(v) => self.reference.topology.outgoing(v).map(HalfEdgeId::face),
+            let start = match self.surface_point(v) {
+                SurfacePoint::Fixed(v) => self.reference.topology.outgoing(v).map(HalfEdgeId::face),
                 _ => None,
             };
             return project(self.reference, position, start.unwrap_or(FaceId(0)));
@@ -136,15 +138,15 @@ impl<'a> WorkMesh<'a> {
         Foot { triangle: side.half_edge.face(), position, weights: Vec3::from_array(weights) }
     }
 
-    /// Adds a vertex; its connectivity is the caller's.
-    pub fn add_vertex(&mut self, position: Vec3, place: Place) -> VertexId {
+    /// Adds a vertex. The caller must connect it.
+    pub fn add_vertex(&mut self, position: Vec3, surface_point: SurfacePoint) -> VertexId {
         let v = self.topology.add_vertex();
         if v.index() == self.positions.len() {
             self.positions.push(position);
-            self.places.push(place);
+            self.surface_points.push(surface_point);
         } else {
             self.positions[v.index()] = position;
-            self.places[v.index()] = place;
+            self.surface_points[v.index()] = surface_point;
         }
         v
     }
@@ -163,45 +165,45 @@ impl<'a> WorkMesh<'a> {
         f
     }
 
-    /// Moves a vertex and hands out where it was.
-    pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, Place)) {
+    /// Exchanges the position of a vertex and its part of the surface with `other`, so that the move can be undone.
+    pub fn exchange(&mut self, v: VertexId, other: &mut (Vec3, SurfacePoint)) {
         std::mem::swap(&mut self.positions[v.index()], &mut other.0);
-        std::mem::swap(&mut self.places[v.index()], &mut other.1);
+        std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
-    /// How far the middle of the edge `h` is from the surface. Nothing for feature edges: they are measured against
-    /// their line.
+    /// Returns the distance of the middle of the edge `h` from the surface. It is 0 for feature edges, whose distance
+    /// from their line is measured instead.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {
         if self.chain(h).is_some() {
             return 0.0;
         }
         let (a, b) = (self.topology.origin(h), self.topology.target(h));
-        let start = match (self.place(a), self.place(b)) {
-            (Place::Free(f), _) | (_, Place::Free(f)) => f,
+        let start = match (self.surface_point(a), self.surface_point(b)) {
+            (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
             _ => self.corner(h).triangle,
         };
         self.stray_at(self.position(a).midpoint(self.position(b)), start)
     }
 
-    /// How far the edges at a vertex are from the surface at most.
+    /// Returns the largest distance of the edges at a vertex from the surface.
     pub fn stray_around(&self, v: VertexId) -> f32 {
         self.topology.ring(v).map(|h| self.stray(h)).fold(0.0, f32::max)
     }
 
-    /// Whether the faces at a vertex are far from coplanar.
+    /// Returns whether the faces at a vertex are far from coplanar.
     pub fn is_bent(&self, v: VertexId) -> bool {
         let normal: Vec3 = self.topology.faces_around(v).map(|f| self.area_vector(f)).sum();
         let normal = normal.normalize_or_zero();
         self.topology.faces_around(v).map(|f| self.area_vector(f)).any(|n| n.dot(normal) < BENT * n.length())
     }
 
-    /// Distance of `p` from the surface near the triangle `start`.
+    /// Returns the distance of `p` from the surface near the triangle `start`.
     pub fn stray_at(&self, p: Vec3, start: FaceId) -> f32 {
         project(self.reference, p, start).position.distance(p)
     }
 
-    /// Least quality of the faces at `v` if it stood at `p`, or `None` if one of them would fold over. Faces that
-    /// `skip` names are left out.
+    /// Returns the least quality of the faces at `v` if it were at `p`, or `None` if one of them would fold over. The
+    /// faces in `skip` are left out.
     pub fn quality_at(&self, v: VertexId, p: Vec3, skip: [Option<FaceId>; 2]) -> Option<f32> {
         let mut least = f32::MAX;
         for h in self.topology.ring(v) {
@@ -219,7 +221,7 @@ impl<'a> WorkMesh<'a> {
         Some(least)
     }
 
-    /// Least quality of the faces at `v`.
+    /// Returns the least quality of the faces at `v`.
     pub fn quality(&self, v: VertexId) -> f32 {
         self.topology
             .faces_around(v)
@@ -231,13 +233,14 @@ impl<'a> WorkMesh<'a> {
     }
 }
 
-/// Faces may not turn by more than this cosine in one edit: about 70 degrees.
+/// Cosine of the angle by which a face may turn in one edit: about 70 degrees.
 pub(super) const FOLD: f32 = 0.35;
 
-/// Faces whose normals are further apart than this from their mean (cosine of about 35 degrees) are bent.
+/// Cosine of the angle between a face and the mean normal above which the faces are bent: about 35 degrees.
 const BENT: f32 = 0.82;
 
-/// Shape of a triangle: 1 if equilateral, 0 if flat (area over the sum of squared sides).
+/// Returns the quality of a triangle, 1 if it is equilateral and 0 if it has no area: its area over the sum of its
+/// squared sides, scaled.
 pub(super) fn quality(a: Vec3, b: Vec3, c: Vec3) -> f32 {
     let sides = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
     if sides > 0.0 { 2.0 * 3.0_f32.sqrt() * (b - a).cross(c - a).length() / sides } else { 0.0 }

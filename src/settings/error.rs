@@ -1,30 +1,38 @@
-//! What can be wrong with settings.
+//! Errors of settings.
 
 use std::fmt;
 
-use super::Range;
+use super::range::Range;
 
-/// Why settings were refused: what is wrong and, if they were read from a file, where.
+/// Reason why settings were refused, with the position in the text if they were read from one.
+///
+/// ```
+/// use bevy_coating::settings::{CoatingSettings, SettingsErrorKind};
+///
+/// let error = CoatingSettings::from_ron("(\n  tearing: (gamma: 2.0),\n)", "barrel.coating.ron").unwrap_err();
+/// assert!(matches!(error.kind, SettingsErrorKind::UnknownField { .. }));
+/// assert_eq!(error.position.unwrap().line, 2);
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct SettingsError {
-    /// Where in which file; `None` for settings that were not read from text.
-    pub place: Option<Place>,
-    /// What is wrong.
+    /// Position in the text; `None` for settings that were not read from text.
+    pub position: Option<TextPosition>,
+    /// Fault that was found.
     pub kind: SettingsErrorKind,
 }
 
-/// A place in a settings file.
+/// Position in the text of a settings file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Name of the file, as it was given to the reader.
+pub struct TextPosition {
+    /// Name of the file, as it was given to [`CoatingSettings::from_ron`](crate::settings::CoatingSettings::from_ron).
     pub file: String,
-    /// Line, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// Column in characters, from 1.
+    /// Number of the character in the line, from 1.
     pub column: usize,
 }
 
-/// What is wrong with settings.
+/// Fault of settings.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingsErrorKind {
@@ -33,44 +41,44 @@ pub enum SettingsErrorKind {
     OutOfRange {
         /// Path of the setting, like `tearing.alpha`.
         field: &'static str,
-        /// The value it has.
+        /// Value that was given.
         found: f32,
-        /// What it may be.
+        /// Range of the setting.
         range: Range,
     },
-    /// A value is no number, or breaks off.
+    /// A value is not a number, or the text ends in it.
     #[error("setting `{field}` must be a number in its range of {range}: {cause}")]
     Malformed {
-        /// Path of the setting.
+        /// Path of the setting, like `tearing.alpha`.
         field: &'static str,
-        /// What it may be.
+        /// Range of the setting.
         range: Range,
-        /// What was found instead.
+        /// Reason in words, with the text that was found.
         cause: String,
     },
     /// There is no such setting or stage.
     #[error("there is no setting `{path}`; known here: {}", known.join(", "))]
     UnknownField {
-        /// What was asked for.
+        /// Path that was given.
         path: String,
-        /// What there is in its place.
+        /// Names that are known there: stages, or paths of settings.
         known: Vec<&'static str>,
     },
     /// A setting or stage is given twice in a file.
     #[error("setting `{path}` is given twice")]
     Duplicate {
-        /// What is repeated.
+        /// Name of the stage, or path of the setting, that is repeated.
         path: String,
     },
-    /// The text is not RON of the expected shape.
+    /// The text is not RON, or not a struct of settings. Holds the message of the parser.
     #[error("{0}")]
     Syntax(String),
-    /// There is no such preset.
+    /// There is no preset of the given name.
     #[error("there is no preset `{name}`; there are {}", known.join(", "))]
     UnknownPreset {
-        /// What was asked for.
+        /// Name that was given.
         name: String,
-        /// The presets there are.
+        /// Names of all presets.
         known: Vec<&'static str>,
     },
 }
@@ -83,14 +91,14 @@ impl SettingsErrorKind {
 
 impl From<SettingsErrorKind> for SettingsError {
     fn from(kind: SettingsErrorKind) -> Self {
-        Self { place: None, kind }
+        Self { position: None, kind }
     }
 }
 
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.place {
-            Some(Place { file, line, column }) => write!(f, "{file}:{line}:{column}: {}", self.kind),
+        match &self.position {
+            Some(TextPosition { file, line, column }) => write!(f, "{file}:{line}:{column}: {}", self.kind),
             None => self.kind.fmt(f),
         }
     }

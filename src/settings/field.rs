@@ -1,32 +1,43 @@
-//! One row of the settings table: how a single setting is found, read, checked and written by its path.
+//! One row of the table of settings: the access to a single setting by its path.
 
-use std::fmt;
+use super::{error::SettingsErrorKind, range::Range, stages::CoatingSettings};
 
-use super::{CoatingSettings, SettingsErrorKind};
-
-/// One setting, addressed by its path.
+/// Setting that is addressed by its path.
+///
+/// ```
+/// use bevy_coating::settings::CoatingSettings;
+///
+/// let alpha = CoatingSettings::fields().find(|field| field.path == "tearing.alpha").unwrap();
+/// let mut settings = CoatingSettings::default();
+/// assert_eq!(alpha.get(&settings), 0.45);
+/// alpha.set(&mut settings, 0.6)?;
+/// assert!(alpha.set(&mut settings, 1.0).is_err(), "the range is open");
+/// assert_eq!(settings.tearing.alpha, 0.6);
+/// # Ok::<(), bevy_coating::settings::SettingsErrorKind>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
-    /// Stage and name, like `tearing.alpha`.
+    /// Path of the setting: the name of its stage and its own name, like `tearing.alpha`.
     pub path: &'static str,
-    /// Meaning, unit and source: the field's documentation.
+    /// Documentation of the setting in Markdown: meaning, unit and source.
     pub doc: &'static str,
-    /// What the setting may be.
+    /// Range of the values that are allowed.
     pub range: Range,
     pub(super) get: fn(&CoatingSettings) -> f32,
     pub(super) set: fn(&mut CoatingSettings, f32),
 }
 
 impl Field {
-    /// The setting's value. Whole settings come as `f32` too: all that are in their range are exact in it.
+    /// Returns the value of the setting. Whole numbers are returned as `f32` too, which is exact for all in range.
     pub fn get(&self, settings: &CoatingSettings) -> f32 {
         (self.get)(settings)
     }
 
-    /// Sets the setting.
+    /// Sets the setting to `value`.
     ///
     /// # Errors
-    /// [`SettingsErrorKind::OutOfRange`]; nothing is changed then.
+    /// [`SettingsErrorKind::OutOfRange`] if `value` is not in the [range](Self::range). The settings are not changed
+    /// then.
     pub fn set(&self, settings: &mut CoatingSettings, value: f32) -> Result<(), SettingsErrorKind> {
         self.check(value)?;
         (self.set)(settings, value);
@@ -47,38 +58,5 @@ impl Field {
 
     pub(super) fn malformed(&self, cause: String) -> SettingsErrorKind {
         SettingsErrorKind::Malformed { field: self.path, range: self.range, cause }
-    }
-}
-
-/// What a setting may be: everything from `min` to `max`. NaN is in no range.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// Lower end.
-    pub min: f32,
-    /// Upper end.
-    pub max: f32,
-    /// Whether the ends themselves are left out.
-    pub open: bool,
-    /// Whether only whole numbers are allowed.
-    pub whole: bool,
-}
-
-impl Range {
-    /// Whether the setting may be `value`.
-    pub fn contains(&self, value: f32) -> bool {
-        let inside =
-            if self.open { self.min < value && value < self.max } else { self.min <= value && value <= self.max };
-        inside && !(self.whole && value.fract() != 0.0)
-    }
-}
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} to {}", self.min, self.max)?;
-        match (self.open, self.whole) {
-            (true, _) => f.write_str(" (both excluded)"),
-            (false, true) => f.write_str(" (whole numbers)"),
-            (false, false) => Ok(()),
-        }
     }
 }

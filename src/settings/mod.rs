@@ -1,8 +1,7 @@
-//! What a user can set, grouped by the stage of the method that it steers.
+//! Settings of a coating, grouped by the stage of the method that they steer.
 //!
-//! Every setting is declared once, in the table of `stages.rs`: name, type, default, range, meaning and where it
-//! comes from. The structs, their documentation, validation, reading, `--set path=value`, reflection and the table
-//! of the README all follow from there.
+//! Each setting is declared once, in a table: name, type, default, range, meaning and source. The structs and their
+//! documentation, the checks, the reading of files and [`set`](CoatingSettings::set) are all made from that table.
 //!
 //! ```
 //! use bevy_coating::settings::{CoatingSettings, Preset};
@@ -22,29 +21,53 @@ pub(crate) mod asset;
 mod error;
 mod field;
 mod presets;
+mod range;
 mod read;
+mod rows;
 mod stages;
+mod table;
 #[cfg(test)]
 mod tests;
 
-pub use error::{Place, SettingsError, SettingsErrorKind};
-pub use field::{Field, Range};
+pub use error::{SettingsError, SettingsErrorKind, TextPosition};
+pub use field::Field;
 pub use presets::Preset;
+pub use range::Range;
 pub use stages::{
     AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
     StrippingSettings, TearingSettings,
 };
 
 impl CoatingSettings {
-    /// Every setting, in the order of the structs.
+    /// Iterates over all settings, in the order of the structs.
+    ///
+    /// ```
+    /// use bevy_coating::settings::CoatingSettings;
+    ///
+    /// let defaults = CoatingSettings::default();
+    /// for field in CoatingSettings::fields() {
+    ///     println!("{} = {} ({})", field.path, field.get(&defaults), field.range);
+    /// }
+    /// # assert!(CoatingSettings::fields().count() > 30);
+    /// ```
     pub fn fields() -> impl Iterator<Item = &'static Field> {
-        stages::STAGES.iter().flat_map(|stage| stage.fields)
+        rows::STAGES.iter().flat_map(|stage| stage.fields)
     }
 
     /// Checks every setting against its range.
     ///
     /// # Errors
     /// [`SettingsErrorKind::OutOfRange`] for the first setting that is NaN, infinite or out of its range.
+    ///
+    /// ```
+    /// use bevy_coating::settings::CoatingSettings;
+    ///
+    /// let mut settings = CoatingSettings::default();
+    /// assert!(settings.validate().is_ok());
+    /// settings.rust.into_cracks = 1.5;
+    /// let error = settings.validate().unwrap_err();
+    /// assert_eq!(error.to_string(), "setting `rust.into_cracks` is 1.5, but its range is 0 to 1");
+    /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
         for field in Self::fields() {
             field.check(field.get(self))?;
@@ -52,11 +75,21 @@ impl CoatingSettings {
         Ok(())
     }
 
-    /// Sets one setting by its path, as in `settings.set("tearing.beta", "0.3")`.
+    /// Sets one setting, given its path and the text of its value.
     ///
     /// # Errors
-    /// [`SettingsErrorKind::UnknownField`], [`SettingsErrorKind::Malformed`] or [`SettingsErrorKind::OutOfRange`];
-    /// nothing is changed then.
+    /// [`SettingsErrorKind::UnknownField`] if there is no such path, [`SettingsErrorKind::Malformed`] if the value is
+    /// no number, or [`SettingsErrorKind::OutOfRange`]. The settings are not changed then.
+    ///
+    /// ```
+    /// use bevy_coating::settings::CoatingSettings;
+    ///
+    /// let mut settings = CoatingSettings::default();
+    /// settings.set("tearing.beta", "0.3")?;
+    /// assert_eq!(settings.tearing.beta, 0.3);
+    /// assert!(settings.set("tearing.beta", "often").is_err());
+    /// # Ok::<(), bevy_coating::settings::SettingsError>(())
+    /// ```
     pub fn set(&mut self, path: &str, value: &str) -> Result<(), SettingsError> {
         let field = Self::fields()
             .find(|field| field.path == path)

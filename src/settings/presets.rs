@@ -2,9 +2,12 @@
 
 use std::{fmt, str::FromStr};
 
-use super::{CoatingSettings, SettingsError, SettingsErrorKind};
+use super::{
+    error::{SettingsError, SettingsErrorKind},
+    stages::CoatingSettings,
+};
 
-/// Settings that come with the crate. Each is a file of `assets/presets` that is built into it.
+/// Named settings that come with the crate. Each is a file in `assets/presets` that is compiled into the crate.
 ///
 /// ```
 /// use bevy_coating::settings::{CoatingSettings, Preset};
@@ -60,10 +63,10 @@ impl fmt::Display for Preset {
 impl FromStr for Preset {
     type Err = SettingsError;
 
-    /// Finds the preset of a [name](Preset::name).
+    /// Returns the preset with this [name](Preset::name).
     ///
     /// # Errors
-    /// [`SettingsErrorKind::UnknownPreset`], which lists the presets there are.
+    /// [`SettingsErrorKind::UnknownPreset`], which lists all names.
     fn from_str(name: &str) -> Result<Self, SettingsError> {
         let known = || Self::ALL.map(Self::name).into();
         let found = Self::ALL.into_iter().find(|preset| preset.name() == name);
@@ -72,17 +75,26 @@ impl FromStr for Preset {
 }
 
 impl From<Preset> for CoatingSettings {
+    /// Returns the settings of the preset.
     fn from(preset: Preset) -> Self {
-        // A test reads every text, so none falls back to the defaults.
+        // A test parses every file, so this never falls back to the defaults.
         Self::from_ron(preset.ron(), preset.name()).unwrap_or_default()
     }
 }
 
 impl CoatingSettings {
-    /// Returns the settings of the preset of this name.
+    /// Returns the settings of the preset with this [name](Preset::name).
     ///
     /// # Errors
-    /// [`SettingsErrorKind::UnknownPreset`], which lists the presets there are.
+    /// [`SettingsErrorKind::UnknownPreset`], which lists all names.
+    ///
+    /// ```
+    /// use bevy_coating::settings::{CoatingSettings, Preset};
+    ///
+    /// assert_eq!(CoatingSettings::preset("gentle")?, CoatingSettings::from(Preset::Gentle));
+    /// assert!(CoatingSettings::preset("rusty").is_err());
+    /// # Ok::<(), bevy_coating::settings::SettingsError>(())
+    /// ```
     pub fn preset(name: &str) -> Result<Self, SettingsError> {
         name.parse::<Preset>().map(Self::from)
     }

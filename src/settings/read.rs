@@ -1,8 +1,8 @@
-//! Reading settings, from RON or any other format of serde.
+//! Reads settings from RON or any other format of serde.
 //!
-//! Written by hand over the table rather than derived, so that every refusal (an unknown name, a value that is
-//! no number, out of range or given twice) names the full path of the setting and its range, and so that settings
-//! that were read are valid.
+//! The reading is written by hand over the table rather than derived. So every error (an unknown name, or a value that
+//! is not a number, out of range or given twice) names the full path of the setting and its range, and settings that
+//! were read are valid.
 
 use std::fmt;
 
@@ -10,21 +10,37 @@ use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
 use super::{
-    CoatingSettings, Field, Place, SettingsError, SettingsErrorKind,
-    stages::{STAGE_NAMES, STAGES, Stage},
+    error::{SettingsError, SettingsErrorKind, TextPosition},
+    field::Field,
+    rows::{STAGE_NAMES, STAGES, Stage},
+    stages::CoatingSettings,
 };
 
 impl CoatingSettings {
-    /// Reads settings from RON, such as `(tearing: (beta: 0.9), adhesion: (decay: 1.3))`. What is left out has its
-    /// default.
+    /// Reads settings from RON. Settings that the text leaves out have their defaults. `file` is the name that errors
+    /// use.
     ///
     /// # Errors
-    /// A [`SettingsError`] that names `file`, line and column, and the setting and its range where a setting is to
-    /// blame: no RON, unknown or repeated settings, values that are no numbers, NaN, infinite or out of range.
+    /// [`SettingsError`] with the file, line and column, if the text is not RON, a setting is unknown or given twice,
+    /// or a value is not a number or out of its range. The error also names the setting and its range where one is at
+    /// fault.
+    ///
+    /// ```
+    /// use bevy_coating::settings::CoatingSettings;
+    ///
+    /// let settings = CoatingSettings::from_ron("(tearing: (beta: 0.9), adhesion: (decay: 1.3))", "barrel")?;
+    /// assert_eq!((settings.tearing.beta, settings.adhesion.decay), (0.9, 1.3));
+    /// assert_eq!(settings.dust, CoatingSettings::default().dust);
+    /// # Ok::<(), bevy_coating::settings::SettingsError>(())
+    /// ```
     pub fn from_ron(text: &str, file: &str) -> Result<Self, SettingsError> {
         let mut fault = None;
         ron::Options::default().from_str_seed(text, SettingsSeed { fault: &mut fault }).map_err(|error| SettingsError {
-            place: Some(Place { file: file.into(), line: error.span.start.line, column: error.span.start.col }),
+            position: Some(TextPosition {
+                file: file.into(),
+                line: error.span.start.line,
+                column: error.span.start.col,
+            }),
             kind: fault.unwrap_or_else(|| SettingsErrorKind::Syntax(error.code.to_string())),
         })
     }
@@ -36,9 +52,10 @@ impl<'de> Deserialize<'de> for CoatingSettings {
     }
 }
 
-/// Where the typed error is kept: serde's own carry text only.
+/// Slot for the typed error, since the errors of serde carry text only.
 type Fault<'a> = &'a mut Option<SettingsErrorKind>;
 
+/// Keeps the typed error and returns an error of serde with its text.
 fn refuse<E: Error>(fault: Fault, kind: SettingsErrorKind) -> E {
     E::custom(fault.insert(kind))
 }
@@ -152,8 +169,8 @@ impl<'de> DeserializeSeed<'de> for FieldSeed<'_> {
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
         let Self { field, settings, fault } = self;
-        // A format that does not name its types has whole numbers as what they were written from. From text they
-        // are read like all others, so that 2.5 and -1 are reported as out of range rather than as bad syntax.
+        // A binary format must read whole numbers as the type they were written from. Text reads them like all
+        // others, so that 2.5 and -1 are reported as out of range rather than as bad syntax.
         let value = if field.range.whole && !deserializer.is_human_readable() {
             u32::deserialize(deserializer).map(|whole| whole as f32)
         } else {

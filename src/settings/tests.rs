@@ -165,7 +165,7 @@ fn refusals_of_a_file_name_file_place_setting_and_range() {
         assert_eq!(refusal(text).to_string(), message, "{text}");
     }
     for broken in ["", "(", "(tearing", "(tearing:", "(tearing: (beta:", "\u{0}", "(tearing: 3)", "((((((((", "{}"] {
-        assert_eq!(refusal(broken).place.unwrap().file, "barrel.coating.ron", "{broken}");
+        assert_eq!(refusal(broken).position.unwrap().file, "barrel.coating.ron", "{broken}");
     }
 }
 
@@ -197,7 +197,7 @@ fn settings_survive_every_kind_of_format() {
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     // As formats without names do.
     let rows: Vec<Vec<f32>> =
-        stages::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
+        rows::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
     let text = serde_json::to_string(&rows).unwrap();
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     assert!(serde_json::from_str::<CoatingSettings>("[[1.0]]").is_err(), "too short");

@@ -1,30 +1,39 @@
-//! Reasons why no film can be made of a surface.
+//! Errors of building a film.
 
 use bevy_math::Vec3;
 
-/// Why no film can be made of a surface. The prop keeps its own mesh.
+/// Reason why no film can be built of a surface. In a game, the prop then keeps its own mesh.
+///
+/// ```
+/// use bevy_coating::surface::{BuildError, Surface, clean};
+///
+/// let error = clean(&Surface::default()).unwrap_err();
+/// assert_eq!(error, BuildError::NoTriangles);
+/// assert_eq!(error.to_string(), "the mesh has no triangles");
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// There is nothing to coat.
+    /// The surface has no triangles.
     #[error("the mesh has no triangles")]
     NoTriangles,
-    /// A corner attribute's length is not three a triangle.
+    /// A list of attributes has the wrong length: not three entries for each triangle, or not one slot for each
+    /// triangle.
     #[error("the mesh has {found} {attribute}, but {expected} are needed")]
     AttributeLength {
-        /// Which attribute.
+        /// Name of the attribute, in plural.
         attribute: &'static str,
-        /// How many there are.
+        /// Number of entries that there are.
         found: usize,
-        /// How many there must be.
+        /// Number of entries that there must be.
         expected: usize,
     },
-    /// A position is NaN or infinite.
+    /// A position that a triangle uses is NaN or infinite.
     #[error("position {vertex} is not finite: ({x}, {y}, {z})", x = position.x, y = position.y, z = position.z)]
     NonFinitePosition {
         /// Index of the vertex.
         vertex: u32,
-        /// The position.
+        /// Position of the vertex.
         position: Vec3,
     },
     /// A triangle refers to a vertex that does not exist.
@@ -32,31 +41,31 @@ pub enum BuildError {
     IndexOutOfRange {
         /// Index of the triangle.
         triangle: u32,
-        /// The index it holds.
+        /// Vertex index that the triangle holds.
         vertex: u32,
-        /// Number of vertices.
+        /// Number of vertices that there are.
         vertices: usize,
     },
-    /// All triangles are degenerate: points, lines or slivers without area.
+    /// No triangle has any area: all are points, lines or slivers.
     #[error("all {triangles} triangles are degenerate (no area)")]
     AllDegenerate {
         /// Number of triangles of the surface.
         triangles: usize,
     },
-    /// The resolution asked for makes no sense.
+    /// The resolution asked for is out of range.
     #[error("film resolution {found} is out of range: {range}")]
     Resolution {
-        /// What was asked for.
+        /// Resolution that was asked for, in words.
         found: String,
-        /// What is allowed.
+        /// Resolutions that are allowed, in words.
         range: &'static str,
     },
-    /// More elements than a film can hold.
+    /// The surface or the film would have more triangles than a film can hold.
     #[error("the film would have {found} triangles, more than the {limit} a film can hold; ask for fewer")]
     TooLarge {
-        /// How many triangles.
+        /// Number of triangles that the film would have.
         found: usize,
-        /// How many at most.
+        /// Highest number of triangles that is allowed.
         limit: usize,
     },
 }

@@ -1,33 +1,49 @@
-//! What the user of a film should know about the surface it was made of.
+//! Warnings of building a film.
 
-/// Something that was put right, or could not be met, while a film was built. Its text says what, and how often.
+/// Repair that was made, or wish that could not be met, while a film was built. Its text says how often.
+///
+/// ```
+/// use bevy_coating::surface::{BuildWarning, Surface, clean};
+/// use bevy_math::Vec3;
+///
+/// // The second triangle repeats the first.
+/// let surface = Surface {
+///     positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+///     triangles: vec![[0, 1, 2], [0, 1, 2]],
+///     ..Surface::default()
+/// };
+/// let clean = clean(&surface)?;
+/// assert_eq!(clean.warnings, [BuildWarning::DuplicatesDropped(1)]);
+/// assert_eq!(clean.warnings[0].to_string(), "1 repeated triangles were dropped");
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildWarning {
-    /// Triangles without area were dropped.
+    /// Triangles without area were dropped. Holds their number.
     #[error("{0} triangles without area were dropped")]
     DegenerateDropped(u32),
-    /// Triangles that repeat another one were dropped.
+    /// Triangles that repeat another one were dropped. Holds their number.
     #[error("{0} repeated triangles were dropped")]
     DuplicatesDropped(u32),
-    /// Edges with more than two faces were split into manifold sheets.
+    /// Edges with more than two faces were split, so that no more than two faces share an edge. Holds their number.
     #[error("{0} edges with more than two faces were split")]
     NonManifoldEdgesSplit(u32),
-    /// Vertices where sheets met in a point were split.
+    /// Vertices at which several sheets met in a point were split, one vertex for each sheet. Holds their number.
     #[error("{0} vertices where sheets met in a point were split")]
     NonManifoldVerticesSplit(u32),
-    /// Edges of one-sided shells (Möbius bands) that were cut where the two sides meet.
+    /// Edges of one-sided shells (such as Moebius bands) were cut where the two sides meet. Holds their number.
     #[error("{0} edges of one-sided shells were cut where the two sides meet")]
     OneSidedEdgesCut(u32),
-    /// Triangles whose winding was turned to agree with their shell.
+    /// Triangles were turned over, to face to the same side as their shell. Holds their number.
     #[error("{0} triangles were turned over to face like their shell")]
     WindingTurned(u32),
-    /// Feature lines are denser than the target edge: the film is finer there.
+    /// The film has more triangles than were asked for, since its creases and seams are too close together for fewer.
     #[error("its creases and seams are finer than {target} triangles can follow: {triangles} were used")]
     FeaturesDenserThanTarget {
-        /// Triangles asked for.
+        /// Number of triangles that was asked for.
         target: u32,
-        /// Triangles there are.
+        /// Number of triangles that the film has.
         triangles: u32,
     },
 }

@@ -1,22 +1,25 @@
-//! Flood fills over live faces joined across bound edges.
+//! Searches of pieces: breadth-first, over live faces that are joined across bound edges.
 
 use super::loose::ListScratch;
-use crate::film::{FaceId, HalfEdgeId, Topology};
+use crate::film::{
+    handles::{FaceId, HalfEdgeId},
+    topology::Topology,
+};
 
-/// Room for flood fills, kept between steps.
+/// Buffers for searches of pieces. Keep them between steps to save allocations; the default is empty.
 #[derive(Clone, Debug, Default)]
 pub struct PieceScratch {
-    /// The last flood that came over each face.
+    /// Mark of the last search that visited each face.
     marks: Vec<u32>,
-    /// The last flood of all.
+    /// Highest mark that was given out.
     last: u32,
-    /// Faces of the last floods, in the order in which they came to them.
+    /// Faces that the last searches visited, in that order.
     floods: [Vec<FaceId>; 2],
     pub(super) lists: ListScratch,
 }
 
 impl PieceScratch {
-    /// A mark that no face bears; nor does any bear the next higher one.
+    /// Returns a mark that no face bears. No face bears the next higher one either.
     pub(super) fn fresh_mark(&mut self, topology: &Topology) -> u32 {
         if self.marks.len() != topology.face_count() || self.last > u32::MAX - 2 {
             self.marks.clear();
@@ -27,12 +30,12 @@ impl PieceScratch {
         self.last
     }
 
-    /// Whether `f` bears `mark`.
+    /// Returns whether `f` bears `mark`.
     pub(super) fn bears(&self, f: FaceId, mark: u32) -> bool {
         self.marks[f.index()] == mark
     }
 
-    /// Marks all faces of the piece of `seed`, which must not bear `mark`, and gives them in flood order.
+    /// Marks all faces of the piece of `seed`, which must not bear `mark`, and returns them in the order of the search.
     pub(super) fn flood(&mut self, topology: &Topology, seed: FaceId, mark: u32) -> &[FaceId] {
         let faces = &mut self.floods[0];
         faces.clear();
@@ -51,12 +54,13 @@ impl PieceScratch {
         faces
     }
 
-    /// Whether the tear of `edge` and its twin, both ends of which have split, cut a piece in two: then the faces of
-    /// the smaller side, in flood order. `None` if both sides still hang together some other way.
+    /// Returns the faces of the smaller side, in the order of the search, if the tear of `edge` and its twin cut a
+    /// piece in two. Returns `None` if both sides are still connected some other way. Both ends of the edge must have
+    /// split.
     ///
-    /// Looks at no more than about twice the smaller side, or than the shorter of the two borders that the tear
-    /// joined. (Only a cut that opens a handle of the surface may take longer; there are never more such cuts than
-    /// handles.)
+    /// The search visits at most about twice the faces of the smaller side, or the half-edges of the shorter of the two
+    /// borders that the tear joined. Only a cut through a handle of the surface (as of a torus) may take longer, and
+    /// there are never more such cuts than handles.
     pub(super) fn cut_off(&mut self, topology: &Topology, edge: HalfEdgeId, twin: HalfEdgeId) -> Option<&[FaceId]> {
         if on_one_border(topology, edge, twin) {
             return None;
@@ -68,7 +72,7 @@ impl PieceScratch {
             self.floods[side].push(seed);
             self.marks[seed.index()] = marks[side];
         }
-        // One face of each side in turn, until a side has no more or comes to the other.
+        // Each side visits one face in turn, until one of them has no more faces or meets the other.
         let mut next = 0;
         loop {
             for side in 0..2 {
@@ -88,7 +92,7 @@ impl PieceScratch {
         }
     }
 
-    /// Appends the piece of `lowest`, its lowest face, to those that go on the list anew.
+    /// Appends the piece whose lowest face is `lowest` to the pieces that have changed.
     pub(super) fn list_piece(&mut self, topology: &Topology, lowest: FaceId) {
         let mark = self.fresh_mark(topology);
         self.flood(topology, lowest, mark);
@@ -98,13 +102,13 @@ impl PieceScratch {
     }
 }
 
-/// Faces bound to `f`.
+/// Iterates over the faces that are bound to `f`.
 pub(super) fn bound_neighbours(topology: &Topology, f: FaceId) -> impl Iterator<Item = FaceId> + '_ {
     f.half_edges().into_iter().filter_map(|h| topology.bound_twin(h)).map(HalfEdgeId::face)
 }
 
-/// Whether the border of the piece left of one unbound half-edge leads to the other. Walks both in turn until one
-/// comes to the other or is back.
+/// Returns whether two half-edges that are bound to no twin lie on the same loop of border. Walks from both in turn
+/// until a walk meets the other half-edge or returns to its own.
 fn on_one_border(topology: &Topology, a: HalfEdgeId, b: HalfEdgeId) -> bool {
     let mut walks = [a, b];
     loop {

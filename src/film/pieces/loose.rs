@@ -1,98 +1,66 @@
 //! The list of loose pieces.
 
-use super::PieceScratch;
-use crate::film::{FaceId, Topology, VertexId};
+use crate::film::{
+    handles::{FaceId, VertexId},
+    topology::Topology,
+};
 
-/// The loose pieces of a film: live faces joined across bound edges, none of whose vertices is attached.
-/// Pieces are in the order of their lowest face.
+/// List of the loose pieces of a film, in the order of the lowest face of each.
+///
+/// A piece is a set of live faces that are joined across bound edges. It is loose if none of its vertices is attached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoosePieces {
     faces: Vec<FaceId>,
     vertices: Vec<VertexId>,
-    /// Ends of each piece in `faces` and `vertices`.
+    /// End of each piece in `faces` and in `vertices`; it starts where the piece before it ends.
     ends: Vec<(u32, u32)>,
-    /// Number of faces of the smallest piece.
+    /// Number of faces of the smallest piece, `None` if there is no piece.
     smallest: Option<u32>,
 }
 
-/// Room for a list that is put together anew.
+/// Buffers for rebuilding the list, kept between steps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ListScratch {
-    /// Pieces that have changed.
+    /// Pieces that have changed since the list was last rebuilt.
     pub fresh: LoosePieces,
-    /// Lowest face of each piece of the list to be, whether it is one of `fresh`, and its place there or in the old list.
+    /// Pieces of the new list: the lowest face, whether the piece is in `fresh`, and its index there or in the old
+    /// list.
     pub order: Vec<(FaceId, bool, u32)>,
-    /// The list to be.
+    /// The new list while it is built.
     list: LoosePieces,
 }
 
-/// One loose piece.
+/// One loose piece of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoosePiece<'a> {
-    /// Its faces, in the order of a flood from the lowest.
+    /// Faces of the piece, in the order of a breadth-first search from the lowest.
     pub faces: &'a [FaceId],
-    /// Its vertices, in an order that follows from that of the faces.
+    /// Vertices of the piece, each once, in an order that follows from that of the faces.
     pub vertices: &'a [VertexId],
 }
 
 impl LoosePieces {
-    /// Finds all pieces anew and keeps the loose ones. Gives the number of pieces, attached ones included. Takes time
-    /// proportional to the film's size.
-    pub fn find(
-        &mut self,
-        topology: &Topology,
-        scratch: &mut PieceScratch,
-        is_attached: impl Fn(VertexId) -> bool,
-    ) -> usize {
-        self.clear();
-        let mark = scratch.fresh_mark(topology);
-        let mut pieces = 0;
-        for seed in topology.live_faces() {
-            if scratch.bears(seed, mark) {
-                continue;
-            }
-            pieces += 1;
-            let faces = scratch.flood(topology, seed, mark);
-            if !faces.iter().any(|&f| topology.corners(f).into_iter().any(&is_attached)) {
-                self.push(topology, faces);
-            }
-        }
-        pieces
-    }
-
-    /// Number of loose pieces.
+    /// Returns the number of loose pieces.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether no piece is loose.
+    /// Returns whether no piece is loose.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// The loose pieces, in the order of their lowest face.
+    /// Iterates over the loose pieces, in the order of their lowest face.
     pub fn iter(&self) -> impl Iterator<Item = LoosePiece<'_>> {
         (0..self.len()).map(|i| self.piece(i))
     }
 
-    /// Number of faces of the smallest loose piece.
+    /// Returns the number of faces of the smallest loose piece, or `None` if no piece is loose.
     pub fn smallest(&self) -> Option<u32> {
         self.smallest
     }
 
-    /// Takes pieces whose faces have been removed off the list.
-    pub fn retain_live(&mut self, topology: &Topology, scratch: &mut PieceScratch) {
-        let ListScratch { order, .. } = &mut scratch.lists;
-        order.clear();
-        for (i, piece) in self.iter().enumerate() {
-            if let Some(&lowest) = piece.faces.first().filter(|&&f| topology.is_live(f)) {
-                order.push((lowest, false, i as u32));
-            }
-        }
-        self.assemble(&mut scratch.lists);
-    }
-
-    /// Forgets all, keeping the buffers.
+    /// Empties the list. Its memory is kept.
     pub(super) fn clear(&mut self) {
         self.faces.clear();
         self.vertices.clear();
@@ -100,6 +68,7 @@ impl LoosePieces {
         self.smallest = None;
     }
 
+    /// Returns the piece at index `i` of the list.
     pub(super) fn piece(&self, i: usize) -> LoosePiece<'_> {
         let start = if i == 0 { (0, 0) } else { self.ends[i - 1] };
         let end = self.ends[i];
@@ -109,7 +78,7 @@ impl LoosePieces {
         }
     }
 
-    /// Appends a piece of these faces.
+    /// Appends a piece with these faces and finds its vertices.
     pub(super) fn push(&mut self, topology: &Topology, faces: &[FaceId]) {
         self.faces.extend_from_slice(faces);
         let corners = faces.iter().flat_map(|f| f.half_edges());
@@ -130,13 +99,13 @@ impl LoosePieces {
         self.smallest = Some(self.smallest.map_or(faces - start, |smallest| smallest.min(faces - start)));
     }
 
-    /// Puts the list together anew from what `scratch` says of it.
+    /// Rebuilds the list from the pieces that `scratch` names.
     pub(super) fn assemble(&mut self, scratch: &mut ListScratch) {
         let ListScratch { fresh, order, list } = scratch;
         order.sort_unstable();
         list.clear();
-        for &(_, is_fresh, place) in order.iter() {
-            list.append(if is_fresh { fresh.piece(place as usize) } else { self.piece(place as usize) });
+        for &(_, is_fresh, index) in order.iter() {
+            list.append(if is_fresh { fresh.piece(index as usize) } else { self.piece(index as usize) });
         }
         core::mem::swap(self, list);
     }

@@ -1,9 +1,10 @@
-//! Connected pieces of the film, and which of them hang in the air.
+//! Connected pieces of the film, and the list of those that are loose: no longer attached anywhere.
 //!
-//! [`FilmPieces`] follows every tear and separation, so that a step in which nothing comes loose need not look at the
-//! film. [`LoosePieces`] is the list of what came loose; its [`find`](LoosePieces::find) floods the whole film and
-//! is the reference for the former.
+//! [`FilmPieces`] is updated after every tear and separation, so that a step in which nothing comes loose costs almost
+//! nothing. [`LoosePieces`] is the list of loose pieces. [`LoosePieces::find`] searches the whole film instead, and
+//! tests compare the two.
 
+mod find;
 mod flood;
 mod loose;
 #[cfg(test)]

@@ -1,21 +1,46 @@
-//! Pieces kept up to date, edit by edit.
+//! Keeps the pieces of the film up to date, edit by edit.
 
-use super::{LoosePieces, PieceScratch, flood::bound_neighbours};
-use crate::film::{FaceId, HalfEdgeId, TearEnd, Topology, VertexId};
+use super::{
+    flood::{PieceScratch, bound_neighbours},
+    loose::LoosePieces,
+};
+use crate::film::{
+    edit::TearEnd,
+    handles::{FaceId, HalfEdgeId, VertexId},
+    topology::Topology,
+};
 
-/// Piece of a face that is in none.
+/// Index of no piece, for faces that have not been assigned one.
 const NONE: u32 = u32::MAX;
 
-/// Which piece each face belongs to, and how much of each piece still holds on.
+/// Index from each face to its piece, with the number of attached vertices of each piece.
 ///
-/// Pieces are live faces joined across bound edges. A tear can cut one in two only where both of its ends split, and
-/// then only the smaller side is looked at; an attached vertex belongs to one piece, as its faces are one fan.
+/// A piece is a set of live faces that are joined across bound edges. A tear can cut a piece in two only if both of its
+/// ends split, and then only the faces of the smaller side are visited. An attached vertex belongs to one piece, since
+/// its faces form one fan.
+///
+/// ```
+/// use bevy_coating::film::{FilmPieces, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId};
+///
+/// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
+/// let is_attached = |v| v == VertexId(3);
+/// let (mut loose, mut scratch) = (LoosePieces::default(), PieceScratch::default());
+/// let mut pieces = FilmPieces::new(&topology, is_attached);
+///
+/// let ends = topology.tear(HalfEdgeId(2), |_, _, _| true).unwrap();
+/// pieces.edge_torn(&topology, HalfEdgeId(2), &ends, &mut scratch, is_attached);
+/// pieces.renew(&topology, &mut loose, &mut scratch);
+/// assert_eq!(loose.len(), 1);
+/// assert!(pieces.agrees(&topology, &loose, is_attached));
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct FilmPieces {
-    /// Piece of each face; says nothing of removed faces.
+    /// Index of the piece of each face. The entries of removed faces mean nothing.
     of: Vec<u32>,
     pieces: Vec<Piece>,
-    /// Faces of pieces that came loose, or changed while loose, since the list of loose pieces was last renewed.
+    /// One face of each piece that came loose, or changed while loose, since the list of loose pieces was last brought
+    /// up to date.
     changed: Vec<FaceId>,
 }
 
@@ -23,12 +48,14 @@ pub struct FilmPieces {
 struct Piece {
     /// Number of attached vertices.
     attached: u32,
-    /// Whether the list of loose pieces does not have it as it is. Used by the renewal of the list alone.
+    /// Whether the list of loose pieces must get this piece again. Only used while that list is brought up to date.
     stale: bool,
 }
 
 impl FilmPieces {
-    /// Finds all pieces of a film. All that are loose count as changed: the list of loose pieces is to be empty.
+    /// Finds all pieces of a film. `is_attached` says whether a vertex is attached to the metal.
+    ///
+    /// The next [`renew`](Self::renew) lists all loose pieces, so its list must be empty.
     pub fn new(topology: &Topology, is_attached: impl Fn(VertexId) -> bool) -> Self {
         let mut found = Self { of: vec![NONE; topology.face_count()], ..Self::default() };
         let mut faces = Vec::new();
@@ -57,12 +84,13 @@ impl FilmPieces {
         found
     }
 
-    /// Whether there is a piece for each face of `topology`: not so of the default, unless the film is empty.
+    /// Returns whether every face of `topology` has an entry. This is false for the default value, unless the film is
+    /// empty.
     pub fn fits(&self, topology: &Topology) -> bool {
         self.of.len() == topology.face_count()
     }
 
-    /// Follows the separation of `v`, which was attached until now.
+    /// Records that `v`, which was attached until now, has separated.
     pub fn vertex_separated(&mut self, topology: &Topology, v: VertexId) {
         let Some(h) = topology.fan(v).next() else { return };
         let piece = self.piece_mut(h.face());
@@ -70,7 +98,8 @@ impl FilmPieces {
         self.note(h.face());
     }
 
-    /// Follows the tear of `edge`, which did `ends` to its ends.
+    /// Records that `edge` has torn. `ends` is the result of [`Topology::tear`], and `is_attached` says whether a
+    /// vertex is attached to the metal.
     pub fn edge_torn(
         &mut self,
         topology: &Topology,
@@ -80,7 +109,7 @@ impl FilmPieces {
         is_attached: impl Fn(VertexId) -> bool,
     ) {
         let Some(twin) = topology.rest_twin(edge) else { return };
-        // The faces still hang together around an end that has opened.
+        // Where an end has only opened, the two faces are still connected around it.
         let split = ends.iter().all(|end| matches!(end, TearEnd::Split { .. }));
         if split && let Some(side) = scratch.cut_off(topology, edge, twin) {
             let attached = count_attached(topology, side, is_attached);
@@ -98,9 +127,10 @@ impl FilmPieces {
         }
     }
 
-    /// Brings the list of loose pieces up to date. Looks at those pieces that tears and separations changed, and copies
-    /// the others; pieces that were removed without such a change are to be taken off by
-    /// [`LoosePieces::retain_live`].
+    /// Brings the list of loose pieces up to date.
+    ///
+    /// Pieces that tears and separations changed are searched again; the others are copied. A piece that was removed
+    /// without such a change is dropped by [`LoosePieces::retain_live`].
     pub fn renew(&mut self, topology: &Topology, loose: &mut LoosePieces, scratch: &mut PieceScratch) {
         if self.changed.is_empty() {
             return;
@@ -116,7 +146,7 @@ impl FilmPieces {
             if !topology.is_live(lowest) {
                 continue;
             }
-            // Pieces only get smaller, so what has this face still has it as the lowest.
+            // Pieces only get smaller, so this is still the lowest face of its piece.
             if core::mem::take(&mut self.piece_mut(lowest).stale) {
                 scratch.list_piece(topology, lowest);
             } else {
@@ -136,7 +166,7 @@ impl FilmPieces {
         loose.assemble(&mut scratch.lists);
     }
 
-    /// Remembers to list the piece of `f` anew if it is loose.
+    /// Notes that the piece of `f` has changed, if it is loose.
     fn note(&mut self, f: FaceId) {
         if self.piece_mut(f).attached == 0 {
             self.changed.push(f);
@@ -147,7 +177,8 @@ impl FilmPieces {
         &mut self.pieces[self.of[f.index()] as usize]
     }
 
-    /// Whether this and the list of loose pieces, unless it is to be renewed, are what a look at the whole film finds.
+    /// Returns whether these pieces are those that a search of the whole film finds. The list of loose pieces is
+    /// compared too, unless it still waits for [`renew`](Self::renew). Meant for tests and debugging.
     pub fn agrees(
         &self,
         topology: &Topology,
@@ -157,7 +188,7 @@ impl FilmPieces {
         let mut listed = LoosePieces::default();
         let pieces = listed.find(topology, &mut PieceScratch::default(), is_attached);
         let found = Self::new(topology, is_attached);
-        // Names differ, but each of one side must have one of the other.
+        // The indices of pieces may differ, but each index here must match exactly one there.
         let names = |f: FaceId| Some((found.of.get(f.index())?, self.of.get(f.index())?));
         let mut pairs: Vec<_> = topology.live_faces().filter_map(names).collect();
         pairs.sort_unstable();
@@ -173,7 +204,7 @@ impl FilmPieces {
     }
 }
 
-/// Number of attached vertices of a whole piece.
+/// Returns the number of attached vertices of a piece, given all its faces.
 fn count_attached(topology: &Topology, faces: &[FaceId], is_attached: impl Fn(VertexId) -> bool) -> u32 {
     let corners = faces.iter().flat_map(|f| f.half_edges());
     corners.filter(|&h| topology.starts_fan(h) && is_attached(topology.origin(h))).count() as u32

@@ -1,11 +1,11 @@
-//! The paper's test pieces: a plate, a curved plate and a disk, with an exact number of triangles.
+//! Makes the paper's test pieces with an exact number of triangles: a plate, a curved plate and a disk.
 //!
-//! The paper's meshes are "uniformly random" (VC 3.3): edges of nearly one length, and no direction that
-//! cracks could prefer. Here blue noise is relaxed until the edges are even, and triangulated (Delaunay);
-//! the relaxation stops long before the points would settle into a lattice.
+//! The paper's meshes are "uniformly random" (VC 3.3): their edges have nearly one length, and no direction is
+//! preferred that cracks could follow. Here blue noise is relaxed until the edges are even, and triangulated
+//! (Delaunay). The relaxation stops long before the points form a lattice.
 //!
-//! All pieces are centred on the origin and face +z. Each comes as a film and as the surface it lies on, so
-//! that it can wear a texture; the film's faces are the surface's triangles, one to one.
+//! All pieces are centred on the origin and face +z. Each is a film together with the surface on which it lies, so that
+//! it can have a texture. The film's faces are the surface's triangles, one to one.
 
 mod outline;
 mod scatter;
@@ -18,34 +18,55 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use bevy_math::{DVec2, Vec2, Vec3, ops};
 
 use crate::{
-    remesh::BuiltFilm,
+    remesh::film::BuiltFilm,
     surface::{BuildError, Surface, SurfaceSite},
 };
 use outline::Outline;
 
-/// A test piece.
+/// Test piece: a film and the surface on which it lies.
 #[derive(Clone, Debug)]
 pub struct TestPiece {
-    /// The piece as a surface, with normals and texture coordinates. These span 0 to 1 over the piece's
-    /// outline (unrolled, for the curved plate), u along x and v downward, as in glTF.
+    /// Surface of the piece, with normals and texture coordinates. Texture coordinates run from 0 to 1 over the
+    /// bounding square of the piece (of the unrolled curved plate), u along x and v downward, as in glTF.
     pub surface: Surface,
-    /// The film on it: face `i` is triangle `i` of the surface.
+    /// Film on the surface. Face `i` is triangle `i` of the surface.
     pub film: BuiltFilm,
 }
 
-/// A square plate in the xy plane, side 1, centred on the origin, facing +z.
+/// Makes a square plate with side 1 in the xy plane. It is centred on the origin and faces +z.
+///
+/// The same seed gives the same plate, to the bit.
 ///
 /// # Errors
 /// [`BuildError::Resolution`] unless 2 to 10 million triangles are asked for.
+///
+/// ```
+/// use bevy_coating::{film::FilmMesh, remesh::sample::plate};
+///
+/// let piece = plate(500, 7)?;
+/// assert_eq!(piece.film.triangles.len(), 500);
+/// let film = FilmMesh::new(piece.film.positions, &piece.film.triangles).unwrap();
+/// assert!((film.geometry.rest_area - 1.0).abs() < 1e-4);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn plate(triangles: u32, seed: u64) -> Result<TestPiece, BuildError> {
     piece(Outline::Square, triangles, seed, |p| (p.as_vec2().extend(0.0), Vec3::Z))
 }
 
-/// A quarter of a cylinder around the y axis: height 1, arc length 1 (so the radius is 2/pi), its convex side
-/// facing outward, its middle facing +z.
+/// Makes a quarter of a cylinder around the y axis, with height 1, arc length 1 and so radius 2/pi. The film is on its
+/// convex side, and its middle faces +z.
 ///
 /// # Errors
 /// [`BuildError::Resolution`] unless 2 to 10 million triangles are asked for.
+///
+/// ```
+/// use bevy_coating::remesh::sample::curved_plate;
+/// use std::f32::consts::FRAC_2_PI;
+///
+/// let piece = curved_plate(200, 7)?;
+/// assert!(piece.film.positions.iter().all(|p| (p.x.hypot(p.z) - FRAC_2_PI).abs() < 1e-5));
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn curved_plate(triangles: u32, seed: u64) -> Result<TestPiece, BuildError> {
     piece(Outline::Square, triangles, seed, |p| {
         let (sin, cos) = ops::sin_cos((FRAC_PI_2 * p.x) as f32);
@@ -54,23 +75,32 @@ pub fn curved_plate(triangles: u32, seed: u64) -> Result<TestPiece, BuildError> 
     })
 }
 
-/// A disk in the xy plane, radius 1, centred on the origin, facing +z.
+/// Makes a disk with radius 1 in the xy plane. It is centred on the origin and faces +z.
 ///
 /// # Errors
 /// [`BuildError::Resolution`] unless 6 to 10 million triangles are asked for.
+///
+/// ```
+/// use bevy_coating::remesh::sample::disk;
+///
+/// let piece = disk(300, 7)?;
+/// assert_eq!(piece.surface.triangles.len(), 300);
+/// assert!(disk(3, 7).is_err());
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn disk(triangles: u32, seed: u64) -> Result<TestPiece, BuildError> {
     piece(Outline::Disk, triangles, seed, |p| (p.as_vec2().extend(0.0), Vec3::Z))
 }
 
-/// Triangulates the outline and maps it into space: `place` gives position and normal of a planar point.
+/// Triangulates the outline and maps it into space. `map` returns the position and the normal of a planar point.
 fn piece(
     outline: Outline,
     triangles: u32,
     seed: u64,
-    place: impl Fn(DVec2) -> (Vec3, Vec3),
+    map: impl Fn(DVec2) -> (Vec3, Vec3),
 ) -> Result<TestPiece, BuildError> {
     let (points, triangles) = scatter::triangulate(outline, triangles, seed)?;
-    let (positions, normals): (Vec<Vec3>, Vec<Vec3>) = points.iter().map(|&p| place(p)).unzip();
+    let (positions, normals): (Vec<Vec3>, Vec<Vec3>) = points.iter().map(|&p| map(p)).unzip();
     let uv = |p: DVec2| {
         let p = p.as_vec2() / outline.extent() as f32;
         Vec2::new(0.5 + p.x, 0.5 - p.y)

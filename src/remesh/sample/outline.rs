@@ -6,16 +6,16 @@ use bevy_math::{DVec2, ops};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// How far a border point may stray along the border, as a part of the spacing: enough that the rows behind
-/// an even border do not line up, little enough to keep its edges alike.
+/// Largest random displacement of a border point along the border, as a part of the spacing. It keeps the rows of
+/// triangles behind the border from lining up, and is small enough that the border edges stay alike.
 const JITTER: f64 = 0.06;
 
-/// A convex outline around the origin.
+/// Convex outline around the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Outline {
-    /// Side 1.
+    /// Square with side 1.
     Square,
-    /// Radius 1.
+    /// Disk with radius 1.
     Disk,
 }
 
@@ -34,7 +34,7 @@ impl Outline {
         }
     }
 
-    /// Width and height.
+    /// Returns the width, which is also the height.
     pub fn extent(self) -> f64 {
         match self {
             Self::Square => 1.0,
@@ -42,7 +42,7 @@ impl Outline {
         }
     }
 
-    /// Fewest border points that keep the shape recognisable.
+    /// Returns the least number of border points that keeps the shape recognisable.
     pub fn min_border(self) -> usize {
         match self {
             Self::Square => 4,
@@ -50,7 +50,7 @@ impl Outline {
         }
     }
 
-    /// Distance from the border; negative outside.
+    /// Returns the distance of a point from the border. It is negative outside.
     pub fn depth(self, p: DVec2) -> f64 {
         match self {
             Self::Square => 0.5 - p.abs().max_element(),
@@ -58,8 +58,8 @@ impl Outline {
         }
     }
 
-    /// `count` points on the border, nearly evenly spaced, counter-clockwise. Those of a square lie exactly
-    /// on its sides, so that no sliver fits between them and the hull; its corners are always among them.
+    /// Returns `count` points on the border, nearly evenly spaced and counter-clockwise. The points of a square lie
+    /// exactly on its sides, so that no sliver fits between them and the hull, and include its corners.
     pub fn border(self, count: usize, rng: &mut ChaCha8Rng) -> Vec<DVec2> {
         let mut jitter = || JITTER * rng.random_range(-1.0..1.0);
         match self {

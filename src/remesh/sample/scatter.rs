@@ -1,8 +1,8 @@
 //! Blue noise in an outline, and its Delaunay triangulation.
 //!
-//! A triangulation of `n` points, `b` of them on a convex border, has `2n - 2 - b` triangles (Euler). So the
-//! number of border points is chosen for the edge length that the triangle count implies, with the parity
-//! of the count, and the number of inner points follows.
+//! A triangulation of `n` points, `b` of them on a convex border, has `2n - 2 - b` triangles (Euler). The number of
+//! border points is chosen to fit the edge length that the number of triangles implies, and to be even or odd like that
+//! number. The number of inner points follows.
 
 use bevy_math::DVec2;
 use delaunator::Point;
@@ -12,13 +12,14 @@ use rand_chacha::ChaCha8Rng;
 use super::outline::Outline;
 use crate::surface::BuildError;
 
+/// Highest number of triangles of a piece.
 const MAX_TRIANGLES: u32 = 10_000_000;
 
-/// Rounds of relaxation: enough for even edges (coefficient of variation near 0.135), few enough that half of
-/// the points still have more or fewer than six neighbours. Many more would let them settle into lattices.
+/// Number of rounds of relaxation: enough for even edges (coefficient of variation near 0.135), and so few that half of
+/// the points still have more or fewer than six neighbours. Many more rounds would let the points form lattices.
 const RELAXATIONS: usize = 12;
 
-/// Points and counter-clockwise triangles, exactly as many as asked for.
+/// Returns points and counter-clockwise triangles, exactly as many as asked for.
 pub(super) fn triangulate(
     outline: Outline,
     triangles: u32,
@@ -50,8 +51,8 @@ pub(super) fn triangulate(
     Ok((points, triangles))
 }
 
-/// Adds `count` points that keep their distance from each other and from the border. The distance shrinks a
-/// little with each dart that fails, so the number is always reached and the spacing stays even.
+/// Adds `count` random points that keep a distance from each other and from the border. The distance shrinks a little
+/// with each point that is refused, so the number is always reached and the spacing stays even.
 fn throw_darts(outline: Outline, count: usize, edge: f64, points: &mut Vec<DVec2>, rng: &mut ChaCha8Rng) {
     let mut distance = 0.85 * edge;
     let shrink = 1.0 - 0.1 / count.max(1) as f64;
@@ -99,7 +100,7 @@ fn delaunay(points: &[DVec2]) -> Vec<[u32; 3]> {
     corners.as_chunks::<3>().0.iter().map(|&[a, b, c]| [a as u32, c as u32, b as u32]).collect()
 }
 
-/// Points in square cells of the ideal edge length.
+/// Grid of square cells, one ideal edge wide, that finds the points near a point.
 struct Grid {
     half: f64,
     cell: f64,
@@ -120,13 +121,13 @@ impl Grid {
         (((x + self.half) / self.cell) as usize).min(self.side - 1)
     }
 
-    /// Points must be inserted in the order of their indices.
+    /// Adds a point. Points must be added in the order of their indices.
     fn insert(&mut self, p: DVec2, index: usize) {
         let cell = self.column(p.y) * self.side + self.column(p.x);
         self.next.push(std::mem::replace(&mut self.head[cell], index as u32));
     }
 
-    /// Whether no point is nearer than `distance`, which is at most one cell.
+    /// Returns whether no point is nearer than `distance`, which must be at most one cell.
     fn is_free(&self, p: DVec2, distance: f64, points: &[DVec2]) -> bool {
         let around = |x: f64| self.column(x - self.cell)..=self.column(x + self.cell);
         around(p.y).all(|row| {

@@ -1,13 +1,13 @@
-//! What a clean surface promises, checked without any of the code that makes it.
+//! Checks every promise of a clean surface, without any of the code that makes one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use bevy_math::Vec3;
 
-use super::CleanSurface;
-use crate::surface::Surface;
+use super::clean_surface::CleanSurface;
+use crate::surface::prop_surface::Surface;
 
-/// Panics with the promise that is broken.
+/// Checks every promise, and panics with the one that is broken.
 pub(super) fn check(surface: &Surface, clean: &CleanSurface) {
     let count = clean.triangles.len();
     assert!(count > 0);
@@ -66,7 +66,7 @@ fn check_sites(surface: &Surface, clean: &CleanSurface) {
     }
 }
 
-/// Euler characteristic and number of border edges.
+/// Returns the Euler characteristic and the number of border edges.
 pub(super) fn euler_and_borders(triangles: &[[u32; 3]], vertices: usize) -> (i64, usize) {
     let mut edges: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for &[a, b, c] in triangles {
@@ -78,7 +78,7 @@ pub(super) fn euler_and_borders(triangles: &[[u32; 3]], vertices: usize) -> (i64
     (euler, edges.values().filter(|faces| **faces == 1).count())
 }
 
-/// Number of shells: components over shared vertices.
+/// Returns the number of shells: components over shared vertices.
 pub(super) fn shells(clean: &CleanSurface) -> usize {
     let mut label: Vec<u32> = (0..clean.positions.len() as u32).collect();
     loop {

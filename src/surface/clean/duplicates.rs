@@ -1,8 +1,8 @@
-//! Faces that repeat another one.
+//! Drops faces that repeat another one.
 
-use super::Face;
+use super::face::Face;
 
-/// Drops every face that has the vertices and the winding of an earlier one; returns how many.
+/// Drops every face that has the vertices and the winding of an earlier one. Returns the number of faces dropped.
 pub(super) fn drop_duplicates(faces: &mut Vec<Face>) -> usize {
     let mut order: Vec<_> = faces.iter().enumerate().map(|(f, face)| (lowest_first(face.vertices), f)).collect();
     order.sort_unstable();
@@ -16,7 +16,7 @@ pub(super) fn drop_duplicates(faces: &mut Vec<Face>) -> usize {
     before - faces.len()
 }
 
-/// The same cycle of vertices, starting at the lowest.
+/// Returns the same cycle of vertices, starting at the lowest.
 fn lowest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a < b && a < c {
         [a, b, c]

@@ -1,13 +1,13 @@
-//! One fan of faces for each vertex.
+//! Splits vertices until the faces of each form one fan.
 
 use bevy_math::Vec3;
 
+use super::face::{Face, NONE};
 use super::pair::{Edges, sorted_half_edges};
-use super::{Face, NONE};
 
-/// Gives every fan but the first of each vertex a duplicate of the vertex, so that the twins are exactly the
-/// edges with two faces. Returns how many vertices had several fans that only met there, at no edge with
-/// more than two faces.
+/// Gives every fan but the first of each vertex a duplicate of the vertex, so that the twins are exactly the edges with
+/// two faces. Returns the number of vertices at which fans met in a point: those that lie on no edge with more than two
+/// faces.
 pub(super) fn split(faces: &mut [Face], twin: &mut [u32], positions: &mut Vec<Vec3>, edges: &Edges) -> usize {
     let welded = positions.len();
     let original: Vec<u32> = faces.iter().flat_map(|face| face.vertices).collect();
@@ -33,7 +33,7 @@ pub(super) fn split(faces: &mut [Face], twin: &mut [u32], positions: &mut Vec<Ve
     several.iter().zip(&on_split_edge).filter(|(several, on_split_edge)| **several && !**on_split_edge).count()
 }
 
-/// Joins corners across twins; the fan with the lowest corner keeps the vertex, the others get duplicates.
+/// Joins corners across twins to fans. The fan with the lowest corner keeps the vertex; the others get duplicates.
 fn name_fans(faces: &mut [Face], twin: &[u32], original: &[u32], positions: &mut Vec<Vec3>) {
     let mut parent: Vec<u32> = (0..original.len() as u32).collect();
     for (h, &g) in twin.iter().enumerate() {
@@ -61,8 +61,8 @@ fn name_fans(faces: &mut [Face], twin: &[u32], original: &[u32], positions: &mut
     }
 }
 
-/// Pairs two half-edges that are the only ones on their vertices, and parts all twins where there are more.
-/// Returns whether any twins were parted.
+/// Makes twins of two half-edges that are the only ones between their two vertices, and parts all twins where there are
+/// more than two. Returns whether any twins were parted.
 fn settle_shared_edges(faces: &[Face], twin: &mut [u32]) -> bool {
     let mut parted = false;
     for run in sorted_half_edges(faces.iter().map(|face| face.vertices)).chunk_by(|a, b| a.0 == b.0) {

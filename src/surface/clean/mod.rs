@@ -1,27 +1,30 @@
-//! Cleaning: whatever triangles a prop has become an oriented manifold (VC 3.3 needs a half-edge mesh, and
-//! game props are rarely one).
+//! Cleaning: makes an oriented manifold of any triangles. The method needs a half-edge mesh (VC 3.3), and props of
+//! games are rarely fit to be one.
 //!
 //! ```text
 //! Surface --validate--> --weld--> --drop duplicates--> --dissolve slivers--> faces over shared vertices
 //!         --pair faces along edges--> --unify winding--> --split fans--> CleanSurface
 //! ```
 //!
-//! Nothing is refused for its shape. What cannot be one manifold becomes several that touch: a closed cut is
-//! invisible in the film at rest, and paint does not know about it.
+//! No surface is refused for its shape. A surface that cannot be one manifold becomes several that touch. The cuts
+//! between them stay closed and so are invisible while the film is at rest.
 //!
 //! - **Welding** merges vertices closer than 1e-5 of the bounding box's diagonal, but never vertices further
 //!   apart than a tenth of the shortest edge at either, so that thin sheets and small details survive.
-//! - **Triangles without area** are dissolved, not just dropped: exporters fill T-junctions with them, and
-//!   dropping one would open the surface along its long edge.
-//! - **Duplicates** with the same winding are dropped, the first is kept. Two triangles on the same vertices
-//!   with *opposite* winding are the two sides of a sheet that was modelled twice: both are kept, as two
-//!   sheets that are never joined to each other, so each side keeps its own texture and its own paint.
-//! - **Edges with more than two faces** keep the pairs that continue most smoothly; other faces get a border.
-//! - **Winding** is unified over each shell. The winding of the larger area wins, so outside stays outside.
-//!   A one-sided shell (Möbius) is cut where its two sides meet.
-//! - **Vertices** where several fans of faces meet get one duplicate for each further fan.
+//! - **Triangles without area** are dissolved into their neighbours. Exporters fill T-junctions with them, so dropping
+//!   one would open the surface along its long edge.
+//! - **Duplicates** with the same winding are dropped, and the first is kept. Two triangles on the same vertices with
+//!   *opposite* winding are the two sides of a sheet that was modelled twice. Both are kept and never joined to each
+//!   other, so each side has its own texture and its own paint.
+//! - **Edges with more than two faces** join the pairs of faces that continue most smoothly. The other faces get a
+//!   border there.
+//! - **Winding** is unified over each shell: the winding of the larger area is kept. A one-sided shell (a Moebius band)
+//!   is cut where its two sides meet.
+//! - **Vertices** at which several fans of faces meet get a duplicate for each fan but the first.
 
+mod clean_surface;
 mod duplicates;
+mod face;
 mod fans;
 mod orient;
 mod pair;
@@ -34,73 +37,43 @@ mod checker;
 #[cfg(test)]
 mod tests;
 
-use bevy_math::{DVec3, Vec3};
+use bevy_math::Vec3;
 
-use super::{BuildError, BuildWarning, Surface, SurfaceSite};
+use super::{
+    error::BuildError,
+    prop_surface::{Surface, SurfaceSite},
+    warning::BuildWarning,
+};
+use face::{Face, NONE, has_repeats};
 
+pub use clean_surface::CleanSurface;
 pub use pair::twins;
 
-/// The index of no vertex or half-edge.
-const NONE: u32 = u32::MAX;
-
-/// A surface made an oriented manifold: every edge has one face, or two that run along it in opposite
-/// directions, and the faces of every vertex form one fan.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CleanSurface {
-    /// Vertex positions: the surface's own, welded, in the order of their first use by index; duplicates made
-    /// by splitting come last. Every vertex is used.
-    pub positions: Vec<Vec3>,
-    /// Vertex indices of each triangle.
-    pub triangles: Vec<[u32; 3]>,
-    /// For each corner of each triangle, the corner `3 * t + k` of the surface whose attributes it has. All
-    /// three belong to the triangle's [`source`](Self::source), except at a vertex that ended a T-junction:
-    /// there it is the corner of the dissolved triangle that had filled the junction.
-    pub corners: Vec<[u32; 3]>,
-    /// Where each corner of each triangle lies on the surface, always on its [`source`](Self::source). The
-    /// weights are a unit vector except at a vertex that ended a T-junction.
-    pub sites: Vec<[SurfaceSite; 3]>,
-    /// The surface's triangle that each triangle is, or is a part of.
-    pub source: Vec<u32>,
-    /// Whether the triangle's winding is opposite to its source's.
-    pub flipped: Vec<bool>,
-    /// What was put right.
-    pub warnings: Vec<BuildWarning>,
-}
-
-/// One triangle on its way through the stages.
-#[derive(Clone, Debug)]
-struct Face {
-    /// Welded vertices.
-    vertices: [u32; 3],
-    /// Surface corners, see [`CleanSurface::corners`].
-    corners: [u32; 3],
-    /// Weights in the source triangle.
-    weights: [Vec3; 3],
-    source: u32,
-    flipped: bool,
-}
-
-impl Face {
-    /// Reverses the winding; half-edges 0 and 2 change places.
-    fn turn(&mut self) {
-        self.vertices.swap(1, 2);
-        self.corners.swap(1, 2);
-        self.weights.swap(1, 2);
-        self.flipped = !self.flipped;
-    }
-
-    fn points(&self, positions: &[Vec3]) -> [DVec3; 3] {
-        self.vertices.map(|v| positions[v as usize].as_dvec3())
-    }
-}
-
-/// Cleans a surface.
+/// Cleans a surface: welds its vertices, repairs it and turns its triangles, so that it becomes an oriented manifold.
 ///
-/// Deterministic, O(n log n). Positions may have any magnitude; all decisions are made in double precision.
+/// The same surface always gives the same result. The time is O(n log n) in the number of triangles. Positions may have
+/// any magnitude, since all decisions are made in double precision.
 ///
 /// # Errors
-/// [`BuildError`] when there are no triangles or too many, an attribute has the wrong length, a triangle
-/// refers to a vertex that does not exist or is not finite, or no triangle has any area.
+/// [`BuildError`] if there are no triangles or too many (above `u32::MAX / 8`), an attribute has the wrong length, a
+/// triangle refers to a vertex that does not exist or is not finite, or no triangle has any area.
+///
+/// ```
+/// use bevy_coating::surface::{Surface, clean};
+/// use bevy_math::Vec3;
+///
+/// // Two triangles of a square that do not share their vertices, as exporters write them.
+/// let (a, b, c, d) = (Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y);
+/// let surface = Surface {
+///     positions: vec![a, b, c, a, c, d],
+///     triangles: vec![[0, 1, 2], [3, 4, 5]],
+///     ..Surface::default()
+/// };
+/// let clean = clean(&surface)?;
+/// assert_eq!(clean.positions.len(), 4, "welded");
+/// assert_eq!(clean.triangles.len(), 2);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
 pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
     validate::validate(surface)?;
     let welded = weld::weld(surface);
@@ -128,8 +101,8 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
         return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });
     }
 
-    // Windings are unified over the manifold parts first: pairing faces along edges with more than two of
-    // them relies on windings.
+    // Windings are unified over the manifold parts first, because the pairing of faces along edges with more
+    // than two of them relies on windings.
     let edges = pair::Edges::new(&faces);
     let mut twin = edges.pair_manifold(&faces);
     let mut cut = orient::unify(&mut faces, &mut twin, &positions);
@@ -172,8 +145,4 @@ fn collect(faces: Vec<Face>, positions: &[Vec3], warnings: Vec<BuildWarning>) ->
         clean.flipped.push(face.flipped);
     }
     clean
-}
-
-fn has_repeats([a, b, c]: [u32; 3]) -> bool {
-    a == b || b == c || c == a
 }

@@ -1,14 +1,14 @@
-//! One winding for each shell.
+//! Unifies the winding of each shell.
 
 use bevy_math::Vec3;
 
-use super::{Face, NONE};
+use super::face::{Face, NONE};
 
-/// Turns faces until all twins of a shell run in opposite directions; the winding of the larger area stays.
-/// Where a shell is one-sided the last twins to be met are parted. Returns how many edges that were.
+/// Turns faces until all twins of a shell run in opposite directions. The winding of the larger area is kept. On a
+/// one-sided shell some twins cannot agree; they are parted. Returns the number of edges parted.
 pub(super) fn unify(faces: &mut [Face], twin: &mut [u32], positions: &[Vec3]) -> usize {
     let starts: Vec<u32> = faces.iter().flat_map(|face| face.vertices).collect();
-    // Against the winding of the shell's first face; none: not yet met.
+    // Whether each face runs against the winding of the first face of its shell; `None` until it is visited.
     let mut turned: Vec<Option<bool>> = vec![None; faces.len()];
     let mut cuts = 0;
     let mut shell = Vec::new();

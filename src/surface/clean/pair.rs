@@ -1,11 +1,20 @@
-//! Which face continues which across an edge. Half-edge `3f + k` runs from corner `k` of face `f` to the next.
+//! Pairs the half-edges along each edge. Half-edge `3 * f + k` runs from corner `k` of face `f` to the next corner.
 
 use bevy_math::{DVec3, Vec3};
 
-use super::{Face, NONE};
+use super::face::{Face, NONE};
 
-/// For each half-edge `3f + k` of the triangles (from corner `k` to the next), the half-edge that runs the
-/// other way along the same edge; `u32::MAX` at borders, and at edges that are not manifold.
+/// Returns the twin of each half-edge: the half-edge that runs the other way along the same edge. Half-edge `3 * f + k`
+/// runs from corner `k` of triangle `f` to its next corner.
+///
+/// The twin is `u32::MAX` on borders, and at edges of more than two triangles or of two with the same direction.
+///
+/// ```
+/// use bevy_coating::surface::twins;
+///
+/// let none = u32::MAX;
+/// assert_eq!(twins(&[[0, 1, 2], [0, 2, 3]]), [none, none, 3, 2, none, none]);
+/// ```
 pub fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut twin = vec![NONE; 3 * triangles.len()];
     for run in sorted_half_edges(triangles.iter().copied()).chunk_by(|a, b| a.0 == b.0) {
@@ -22,7 +31,7 @@ fn start(triangles: &[[u32; 3]], h: u32) -> u32 {
     triangles[h as usize / 3][h as usize % 3]
 }
 
-/// Half-edges with their unordered pair of vertices, sorted by it and then by index.
+/// Returns all half-edges with their two vertices, the lower vertex first, sorted by the vertices and then by index.
 pub(super) fn sorted_half_edges(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<((u32, u32), u32)> {
     let mut half_edges: Vec<_> = triangles
         .enumerate()
@@ -34,7 +43,7 @@ pub(super) fn sorted_half_edges(triangles: impl Iterator<Item = [u32; 3]>) -> Ve
     half_edges
 }
 
-/// All half-edges, those of one edge next to each other.
+/// List of all half-edges in which those of one edge are next to each other.
 pub(super) struct Edges {
     half_edges: Vec<((u32, u32), u32)>,
 }
@@ -48,7 +57,7 @@ impl Edges {
         self.half_edges.chunk_by(|a, b| a.0 == b.0)
     }
 
-    /// The edges with more than two faces.
+    /// Iterates over the edges with more than two faces, each as its two vertices.
     pub fn non_manifold_edges(&self) -> impl Iterator<Item = (u32, u32)> {
         self.runs().filter(|run| run.len() > 2).map(|run| run[0].0)
     }
@@ -57,7 +66,7 @@ impl Edges {
         self.non_manifold_edges().count()
     }
 
-    /// Twins across the edges with exactly two faces, whatever their winding.
+    /// Returns the twins across the edges with exactly two faces, whatever their winding.
     pub fn pair_manifold(&self, faces: &[Face]) -> Vec<u32> {
         let mut twin = vec![NONE; 3 * faces.len()];
         for run in self.runs() {
@@ -70,8 +79,8 @@ impl Edges {
         twin
     }
 
-    /// Twins across the edges with more than two faces, the smoothest continuation first. Pairs that agree in
-    /// winding come before pairs that do not, and the latter are joined only where they do not fold back.
+    /// Adds twins across the edges with more than two faces, the smoothest continuation first. Pairs that agree in
+    /// winding come before pairs that do not, and pairs that do not agree are joined only where they do not fold back.
     pub fn pair_others(&self, faces: &[Face], positions: &[Vec3], twin: &mut [u32]) {
         for run in self.runs().filter(|run| run.len() > 2) {
             let pages: Vec<_> =
@@ -100,18 +109,18 @@ impl Edges {
     }
 }
 
-/// Two faces on the same vertices: the two sides of a sheet modelled twice.
+/// Returns whether two faces have the same three vertices: the two sides of a sheet that was modelled twice.
 fn back_to_back(a: &Face, b: &Face) -> bool {
     a.vertices.iter().all(|v| b.vertices.contains(v))
 }
 
-/// In steps of about a ten-thousandth, so that rounding does not decide between symmetric pairs.
+/// Compares in steps of a ten-thousandth, so that rounding does not decide between symmetric pairs.
 fn compare_flatness(a: f64, b: f64) -> std::cmp::Ordering {
     let step = |x: f64| (x * 1e4).round();
     step(a).total_cmp(&step(b))
 }
 
-/// A face as a page of the book whose spine is the edge.
+/// A face at an edge with several faces. The faces stand around the edge like the pages of a book around its spine.
 struct Page {
     half_edge: u32,
     /// Whether the face runs along the spine from its lower to its higher vertex.
@@ -137,7 +146,7 @@ impl Page {
         }
     }
 
-    /// Whether the two bound solid between them: each lies behind the other.
+    /// Returns whether the two faces enclose solid between them: each lies behind the other.
     fn convex(&self, other: &Page) -> bool {
         self.normal.dot(other.direction) < 1e-4 && other.normal.dot(self.direction) < 1e-4
     }

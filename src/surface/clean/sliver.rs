@@ -1,8 +1,8 @@
-//! Triangles with three vertices but no area. Dropping one would tear the surface open, so it is dissolved
-//! into its neighbours:
+//! Dissolves triangles with three different vertices but no area into their neighbours. Dropping one would tear the
+//! surface open.
 //!
-//! - a *needle*, whose two corners coincide: its short edge is collapsed;
-//! - a *cap*, whose middle vertex lies on its long edge (what fills a T-junction): every other face at the
+//! - A *needle* has two corners that almost coincide. Its short edge is collapsed.
+//! - A *cap* has its middle vertex on its long edge, as a triangle that fills a T-junction. Every other face at the
 //!   long edge is split at that vertex. In a manifold this is an edge flip.
 
 use std::cmp::Reverse;
@@ -10,13 +10,14 @@ use std::collections::BinaryHeap;
 
 use bevy_math::{DVec3, Vec3};
 
-use super::{Face, has_repeats};
+use super::face::{Face, has_repeats};
 
-/// A triangle has no area when its altitude is below this part of its longest edge (and the welding
-/// tolerance): a ten-thousandth of a degree. CAD slivers are much fatter, and are left to the remesher.
+/// A triangle counts as without area if its altitude is below this part of its longest edge, and below the welding
+/// tolerance. Its angles are then below a ten-thousandth of a degree. Slivers of CAD programs are much fatter and are
+/// left to the remesher.
 const ALTITUDE: f64 = 1e-6;
 
-/// Dissolves slivers in place; returns how many there were. There must be no duplicates.
+/// Dissolves slivers in place. Returns the number of slivers at the start. There must be no duplicate faces.
 pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64) -> usize {
     let queue: BinaryHeap<_> =
         (0..faces.len()).filter_map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f)))).collect();
@@ -25,8 +26,8 @@ pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64
         return 0;
     }
     let mut work = Dissolver::new(faces, positions, tolerance, queue);
-    // Each step shortens an edge or removes a face. Nearly flat clusters of slivers might still go round in
-    // circles through rounding; what is left after the bound stays as it is, thin but watertight.
+    // Each step shortens an edge or removes a face. Rounding might still make clusters of slivers go round in
+    // circles, so the number of steps is bounded. Slivers that are left then stay: thin, but watertight.
     let mut steps = 16 * count + 64;
     while steps > 0
         && let Some((_, Reverse(f))) = work.queue.pop()
@@ -39,7 +40,7 @@ pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64
     count
 }
 
-/// How a triangle has no area.
+/// Shape of a triangle without area.
 struct Sliver {
     /// Its longest edge runs from this corner to the next.
     long: usize,
@@ -51,13 +52,14 @@ struct Sliver {
 }
 
 impl Sliver {
-    /// Longest first: then the face beyond the long edge is rarely a sliver itself. Lengths are not negative,
-    /// so their bits are in order.
+    /// Returns a rank that puts the longest sliver first, since the face beyond its long edge is rarely a sliver
+    /// itself. The bits of a length are in the order of lengths, as none is negative.
     fn rank(&self) -> u64 {
         self.length.to_bits()
     }
 }
 
+/// Returns the shape of the face if it has no area.
 fn sliver(face: &Face, positions: &[Vec3], tolerance: f64) -> Option<Sliver> {
     let p = face.points(positions);
     let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
@@ -89,9 +91,9 @@ struct Dissolver<'a> {
     positions: &'a [Vec3],
     tolerance: f64,
     dead: Vec<bool>,
-    /// Vertices, sorted, that each face had, or that it is a part of had, before any change.
+    /// Sorted vertices of each face before any change; of a part of a face, those of the whole face.
     origin: Vec<[u32; 3]>,
-    /// Faces at each vertex, in no order that matters; may hold dead or former ones.
+    /// Faces at each vertex, in no particular order. Some may be dead or no longer at the vertex.
     at_vertex: Vec<Vec<u32>>,
     queue: Queue,
 }
@@ -161,8 +163,8 @@ impl<'a> Dissolver<'a> {
     /// Splits face `g` at the vertex `apex` (with its surface corner) that lies on its edge `a`, `b`, at
     /// `along` from `a`.
     fn split(&mut self, g: usize, a: u32, b: u32, apex: (u32, u32), along: f64) {
-        let place = |v: u32| self.faces[g].vertices.iter().position(|w| *w == v);
-        let (Some(i), Some(j)) = (place(a), place(b)) else { return };
+        let corner_of = |v: u32| self.faces[g].vertices.iter().position(|w| *w == v);
+        let (Some(i), Some(j)) = (corner_of(a), corner_of(b)) else { return };
         let mut half = self.faces[g].clone();
         let weight = half.weights[i].lerp(half.weights[j], along as f32);
         // `g` keeps `a`, the new half keeps `b`.
@@ -183,7 +185,7 @@ impl<'a> Dissolver<'a> {
         self.settle(new);
     }
 
-    /// After a change: drops the face if a vertex repeats or another face has come to lie on it, queues it if
+    /// Checks a face after a change. Drops it if a vertex repeats or another face has come to lie on it; queues it if
     /// it has no area.
     fn settle(&mut self, g: usize) {
         if self.dead[g] {
@@ -192,7 +194,7 @@ impl<'a> Dissolver<'a> {
         if has_repeats(self.faces[g].vertices) {
             self.dead[g] = true;
         } else if let Some(other) = self.folded_onto(g) {
-            // The two have become a flap without volume; the faces around it meet where it was.
+            // The two faces lie on each other and enclose no volume. Without them the faces around them meet.
             self.dead[g] = true;
             self.dead[other] = true;
         } else if let Some(sliver) = sliver(&self.faces[g], self.positions, self.tolerance) {
@@ -200,7 +202,7 @@ impl<'a> Dissolver<'a> {
         }
     }
 
-    /// Another face on the same vertices, unless the two were the sides of one sheet from the start.
+    /// Returns another face on the same vertices, unless the two were the sides of one sheet from the start.
     fn folded_onto(&self, g: usize) -> Option<usize> {
         let vertices = sorted(self.faces[g].vertices);
         let others = self.at_vertex[vertices[0] as usize].iter().map(|&h| h as usize);

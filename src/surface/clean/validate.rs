@@ -1,8 +1,9 @@
-//! What the stages rely on: indices in range, finite positions, attributes of the right length.
+//! Checks that indices are in range, positions are finite and attributes have the right length. The stages rely on it.
 
-use crate::surface::{BuildError, Surface};
+use crate::surface::{error::BuildError, prop_surface::Surface};
 
-/// Half-edges, corners and split vertices are `u32`, and remeshing may double what it is given.
+/// Most triangles that a surface may have: half-edges, corners and split vertices must fit in `u32`, and remeshing may
+/// double the number.
 pub(super) const MAX_TRIANGLES: usize = (u32::MAX / 8) as usize;
 
 pub(super) fn validate(surface: &Surface) -> Result<(), BuildError> {

@@ -1,23 +1,24 @@
-//! Welding: one vertex where the prop has several at (almost) the same place.
+//! Welds vertices that are at (almost) the same position.
 
 use std::collections::HashMap;
 
 use bevy_math::{DVec3, Vec3};
 
-use super::NONE;
-use crate::surface::Surface;
+use super::face::NONE;
+use crate::surface::prop_surface::Surface;
 
-/// Vertices nearer than this part of the bounding box's diagonal are one...
+/// Vertices closer than this part of the bounding box's diagonal are welded.
 const TOLERANCE: f64 = 1e-5;
-/// ...unless that is more than this part of the shortest edge at either of them.
+/// Vertices further apart than this part of the shortest edge at either of them are never welded.
 const EDGE_FRACTION: f64 = 0.1;
 
+/// Vertices of a surface after welding.
 pub(super) struct Welded {
-    /// Of each welded vertex, the position of its lowest surface vertex.
+    /// Position of each welded vertex: that of its lowest surface vertex.
     pub positions: Vec<Vec3>,
     /// Welded vertex of each surface vertex; [`NONE`] where no triangle uses it.
     pub vertex_of: Vec<u32>,
-    /// The tolerance, in the surface's unit.
+    /// Largest distance at which vertices were welded, in the surface's unit.
     pub tolerance: f64,
 }
 
@@ -38,7 +39,7 @@ pub(super) fn weld(surface: &Surface) -> Welded {
     for v in firsts() {
         let p = surface.positions[v].as_dvec3();
         let reach = |w: usize| tolerance.min(EDGE_FRACTION * shortest[v].min(shortest[w]));
-        // A vertex joins only vertices that have not joined another, so chains of near vertices do not drift.
+        // The grid holds only vertices that were not welded to another, so chains of close vertices do not drift.
         let mut nearest: Option<(f64, usize)> = None;
         grid.for_near(p, |w| {
             let distance = surface.positions[w].as_dvec3().distance(p);
@@ -63,13 +64,13 @@ pub(super) fn weld(surface: &Surface) -> Welded {
     welded
 }
 
-/// The lowest used vertex at exactly the same place; [`NONE`] for unused vertices.
+/// Returns the lowest used vertex at exactly the same position as each vertex; [`NONE`] for unused vertices.
 fn merge_equal(surface: &Surface) -> Vec<u32> {
     let mut first = vec![NONE; surface.positions.len()];
     for &v in surface.triangles.iter().flatten() {
         first[v as usize] = v;
     }
-    // Adding zero makes both zeros equal.
+    // Adding zero turns -0 into 0, so that both have the same bits.
     let bits = |v: u32| (surface.positions[v as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<_> = first.iter().filter(|v| **v != NONE).map(|&v| (bits(v), v)).collect();
     order.sort_unstable();
@@ -81,7 +82,7 @@ fn merge_equal(surface: &Surface) -> Vec<u32> {
     first
 }
 
-/// Length of the shortest edge, other than zero, at each vertex.
+/// Returns the length of the shortest edge at each vertex; edges of length 0 do not count.
 fn shortest_edges(surface: &Surface, first: &[u32]) -> Vec<f64> {
     let mut shortest = vec![f64::INFINITY; first.len()];
     for &[a, b, c] in &surface.triangles {
@@ -97,8 +98,8 @@ fn shortest_edges(surface: &Surface, first: &[u32]) -> Vec<f64> {
     shortest
 }
 
-/// A sparse grid of cells twice the tolerance wide: whatever is within the tolerance of a point lies in the
-/// eight cells around the cell corner nearest to it.
+/// Sparse grid of cells twice the tolerance wide. Every vertex within the tolerance of a point lies in one of the eight
+/// cells around the cell corner nearest to the point.
 struct Grid {
     low: DVec3,
     cell: f64,

@@ -1,0 +1,152 @@
+//! The table of all settings, grouped by stage.
+//!
+//! Lengths are in mean film edges unless a row says metres. Forces are in units of the initial contraction (VC's T).
+//! Angles are in radians. Age 0 is fresh, and age 1 is the end of the reference run (1,000 steps in the paper). Every
+//! rate is per unit age, so that the result does not depend on the number of steps. "Found by trial" marks constants
+//! that the paper leaves open.
+
+/// Hands the table to the macro `$then`. A row is `name: type = default, ends(min, max)`, where the ends are
+/// `closed` (part of the range) or `open` (not part of it).
+macro_rules! with_stages {
+    ($then:ident) => {
+        $then! {
+            /// Adhesion of the film to the metal (VC 5.1). It varies over the film by Perlin noise and falls with age.
+            /// A vertex separates when the bending force on it exceeds its adhesion.
+            adhesion: AdhesionSettings {
+                /// Mean adhesion of a fresh film, as a force. A flat film feels a force of 1 when fresh, so
+                /// separation starts where the noise falls below that. Found by trial.
+                mean: f32 = 2.1, closed(0.0, 100.0);
+                /// Standard deviation of a fresh film's adhesion, as a force. At 0 the adhesion is the same everywhere.
+                /// Where the noise makes it negative, it is 0. Found by trial.
+                deviation: f32 = 0.70, closed(0.0, 100.0);
+                /// Number of octaves of the noise. Each octave has twice the frequency and half the amplitude of the
+                /// one before.
+                octaves: u32 = 2, closed(1.0, 8.0);
+                /// Number of cycles of the first octave over the longest side of the film's bounding box. More cycles
+                /// make more and smaller patches of weak and strong adhesion. Found by trial.
+                frequency: f32 = 5.0, closed(0.01, 1000.0);
+                /// Adhesion that is lost per unit age, as a force. This is VC's speed of deterioration w.
+                decay: f32 = 1.0, closed(0.0, 100.0);
+            }
+            /// Bending force that lifts the film off the metal (VC 5.1, eq. 4).
+            bending: BendingSettings {
+                /// Ratio of the bending force to the contraction of a face, VC's k. At 1/3 the bending force on a
+                /// vertex with six neighbours in a flat film is exactly the contraction of one face.
+                gain: f32 = 1.0 / 3.0, closed(0.0, 100.0);
+                /// Steepness of the sigmoid over the dihedral angle, per radian, VC's gamma (fig. 8). A larger value
+                /// makes convex places separate earlier and concave ones later. At 0 the shape has no effect.
+                gamma: f32 = 2.0, closed(0.0, 50.0);
+            }
+            /// Contraction of the film, binding between its faces, and cracks (VC 5.2).
+            tearing: TearingSettings {
+                /// Contraction force of a fresh face, VC's T. It is the unit of all forces, so it is rarely worth
+                /// changing.
+                contraction: f32 = 1.0, closed(0.0, 100.0);
+                /// Contraction that a face gains per unit age, as a force. An edge tears when the contraction of its
+                /// two faces together exceeds its binding.
+                contraction_growth: f32 = 1.0, closed(0.0, 100.0);
+                /// Share of its contraction that a face keeps when one of its edges tears. At 1 a crack relieves
+                /// nothing, and the film breaks into smaller pieces. Found by trial.
+                contraction_kept: f32 = 0.3, closed(0.0, 1.0);
+                /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or all
+                /// edges tear at once. Found by trial.
+                binding: f32 = 6.0, closed(0.0, 1_000_000.0);
+                /// Rate at which the bound edges of a face with a torn edge lose binding, per unit age. The binding
+                /// falls by the factor exp(-rate age), once for each such face at the edge. Found by trial.
+                binding_decay: f32 = 1.3, closed(0.0, 100.0);
+                /// Probability that an edge is a defect from which cracks start (VC 5.2). At 0 no edge tears unless the
+                /// contraction alone exceeds the binding.
+                weak_probability: f32 = 0.01, closed(0.0, 1.0);
+                /// Share of the binding that a defect has (VC 5.2).
+                weak_factor: f32 = 0.001, closed(0.0, 1.0);
+                /// Straightness of cracks, as a cosine (VC 5.2). An edge at the tip of a crack tears easily if the
+                /// cosine of its angle to the crack's direction is above this. A higher value makes fewer and
+                /// straighter cracks.
+                alpha: f32 = 0.45, open(-1.0, 1.0);
+                /// Share of the binding that counts for an edge ahead of the tip of a crack (VC 5.2). Cracks stop
+                /// growing if it is above the ratio of the contraction of two faces to the binding. At 1 edges at tips
+                /// tear no easier than others.
+                beta: f32 = 0.20, closed(0.0, 1.0);
+            }
+            /// Bending of the separated film by position-based dynamics without inertia, PBD-2 (VC 4).
+            deform: DeformSettings {
+                /// Rate at which the target dihedral angles of separated edges become narrower, in radians per unit
+                /// age. Found by trial.
+                narrowing_rate: f32 = 0.7, closed(0.0, 100.0);
+                /// Largest difference between the initial and the target angle of an edge, in radians. Values of 0.2 to
+                /// 0.5 curl flakes; above about 1.5 the film folds over. Found by trial.
+                bend_limit: f32 = 0.35, closed(0.0, std::f32::consts::PI);
+                /// Number of plain solver sweeps per unit age. It sets how far flakes lift, since bending is a slow
+                /// creep that does not come to an end within a step. At 0 the film does not bend. Found by trial.
+                sweeps_per_age: f32 = 10_000.0, closed(0.0, 1_000_000.0);
+            }
+            /// Stripping of faces that are torn off all around (VC 5.3), and the fall of loose pieces.
+            stripping: StrippingSettings {
+                /// Largest number of faces of a loose piece that falls off. A piece is loose if none of its vertices is
+                /// attached; larger loose pieces stay. At 0 none falls, as in the paper.
+                fall_faces: u32 = 6, closed(0.0, 1_000_000.0);
+            }
+            /// Rust that runs off below cracks and stains the surface on its way (VC 6.1), and rust of the metal
+            /// itself. Lengths are in metres, so that streaks do not depend on the resolution of the film.
+            rust: RustSettings {
+                /// Rust that the lower end of a crack gives off per unit age and metre of that crack, in layers of rust
+                /// times metres (VC 6.1). At 0 no rust runs off. Found by trial.
+                emission: f32 = 0.08, closed(0.0, 1000.0);
+                /// Speed of run-off on a vertical surface, in metres per unit age. On a slope it is multiplied by the
+                /// sine of the slope. Found by trial.
+                speed: f32 = 1.5, closed(0.0, 10_000.0);
+                /// Rate at which run-off dries and leaves a lasting stain, per unit age. Streaks fade over the length
+                /// `speed / deposit`. Found by trial.
+                deposit: f32 = 4.0, closed(0.0, 10_000.0);
+                /// Sideways spread of run-off: the standard deviation in metres after a run of one metre. A film whose
+                /// edges are longer than about this spreads run-off over its edge length instead.
+                spread: f32 = 0.05, closed(0.0, 10.0);
+                /// Share of the run-off at the upper lip of a crack that drops onto the metal in the crack. The rest
+                /// crosses to the film below. Where no film is left below, all of it drops.
+                into_cracks: f32 = 0.5, closed(0.0, 1.0);
+                /// Rate at which bare metal rusts towards saturation, per unit age. In cracks it is half of this.
+                corrosion: f32 = 4.0, closed(0.0, 1000.0);
+            }
+            /// Black stains: dust and soot (VC 6.2, fig. 11). Height, direction and curvature slow down or speed up the
+            /// dust, each with a weight. A factor whose weight is 0 has no effect.
+            dust: DustSettings {
+                /// Rate at which dust gathers where no factor changes it, per unit age. At 0 there is no dust.
+                rate: f32 = 1.2, closed(0.0, 1000.0);
+                /// Weight of the height. The rate at the top of the prop is 1 minus this times the rate at its foot.
+                height: f32 = 0.4, closed(0.0, 1.0);
+                /// Weight of the direction. The rate on surfaces that face down is 1 minus this times the rate on
+                /// surfaces that face up.
+                direction: f32 = 0.8, closed(0.0, 1.0);
+                /// Weight of the curvature. At 1 the rate is multiplied by a factor from 0.5 on sharp ridges to 1.5 in
+                /// deep hollows.
+                curvature: f32 = 1.0, closed(0.0, 1.0);
+            }
+            /// Moisture of the surfaces and its effects. There is no moisture before the first rain. An effect whose
+            /// setting is 0 is switched off.
+            moisture: MoistureSettings {
+                /// Rate at which surfaces that face full rain get wet, per unit age.
+                wetting: f32 = 60.0, closed(0.0, 10_000.0);
+                /// Rate at which wet surfaces dry in the shade, per unit age.
+                drying: f32 = 15.0, closed(0.0, 10_000.0);
+                /// Increase of the drying rate in full sunlight. At 1 surfaces dry twice as fast there.
+                sun: f32 = 1.0, closed(0.0, 100.0);
+                /// Share of the drying rate that is left under flakes and in cracks.
+                crevice: f32 = 0.25, closed(0.0, 1.0);
+                /// Increase of the decay of adhesion where the film is wet. At 1 it decays twice as fast there.
+                adhesion: f32 = 1.0, closed(0.0, 100.0);
+                /// Increase of the rust that sources give off, and of the rate at which metal rusts, where it is wet.
+                /// At 1 both are doubled there.
+                emission: f32 = 1.0, closed(0.0, 100.0);
+                /// Increase of the speed of run-off where it is wet. At 1 it is doubled there.
+                travel: f32 = 0.5, closed(0.0, 100.0);
+                /// Speed at which full rain washes dust along and off wet vertical surfaces, in metres per unit age. At
+                /// 0 rain washes no dust away.
+                wash_dust: f32 = 2.0, closed(0.0, 10_000.0);
+                /// Rate at which full rain dissolves rust stains on wet surfaces, per unit age. At 0 stains never fade.
+                wash_rust: f32 = 0.0, closed(0.0, 10_000.0);
+            }
+        }
+    };
+}
+
+pub(super) use with_stages;
