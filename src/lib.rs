@@ -94,6 +94,7 @@ pub mod deform;
 mod display;
 pub mod film;
 pub mod fracture;
+pub mod guide;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "plugin")]
@@ -133,3 +134,8 @@ pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "plugin")]
 pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
+
+/// Compiles the snippets of the README.
+#[cfg(all(doctest, feature = "plugin"))]
+#[doc = include_str!("../README.md")]
+struct ReadmeDoctests;

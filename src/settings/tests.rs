@@ -269,14 +269,14 @@ fn every_preset_file_is_built_in() {
 }
 
 #[test]
-fn the_readme_lists_every_setting() {
-    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
+fn the_guide_lists_every_setting() {
+    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/settings.md")).unwrap();
+    let rows: Vec<_> = guide.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
     for (field, row) in CoatingSettings::fields().zip(rows) {
         let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);
         assert!(row.starts_with(&expected), "{row}\nshould start with\n{expected}");
     }
     for name in Preset::ALL.map(Preset::name) {
-        assert!(readme.contains(&format!("| `{name}` | ")), "{name}");
+        assert!(guide.contains(&format!("| `{name}` | ")), "{name}");
     }
 }

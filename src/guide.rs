@@ -1,0 +1,58 @@
+//! Explains how to use the crate, one topic a page.
+//!
+//! | page | topic |
+//! |---|---|
+//! | [`getting_started`] | a first prop, glTF scenes, the clock, messages, components |
+//! | [`settings`] | every setting with its default and range, files, presets |
+//! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
+//! | [`baking`] | ageing model files without an engine |
+//! | [`performance`] | measured times, quality levels |
+//! | [`limits`] | which meshes are taken, and what is not simulated |
+//! | [`how_it_works`] | the stages, and where each comes from in the paper |
+//!
+//! The same pages lie in the folder `docs` of the repository. Pages whose examples need the engine are empty without the
+//! feature `plugin`.
+
+/// Destinations of the links between the pages. The pages define them too, as files, but the first definition counts.
+macro_rules! links {
+    () => {
+        "[getting started]: crate::guide::getting_started
+[settings]: crate::guide::settings
+[stains]: crate::guide::stains
+[baking]: crate::guide::baking
+[performance]: crate::guide::performance
+[limits]: crate::guide::limits
+[how it works]: crate::guide::how_it_works
+"
+    };
+}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/getting_started.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod getting_started {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/settings.md")]
+pub mod settings {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/stains.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod stains {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/baking.md")]
+pub mod baking {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/performance.md")]
+pub mod performance {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/limits.md")]
+pub mod limits {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/how_it_works.md")]
+pub mod how_it_works {}
