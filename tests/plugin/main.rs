@@ -1,7 +1,7 @@
 //! The plugin from outside: apps without a window, stepped frame by frame, and pictures of them.
 //!
-//! One binary, since each would link the engine. Threads, loggers and devices are those of the process: a test that wants
-//! its own starts this program again ([`common::assert_same_on_any_number_of_threads`]).
+//! One binary, since each would link the engine. Pools of threads and the logger are those of the process: a test that
+//! needs its own starts this program again (`assert_same_on_any_number_of_threads`).
 
 #[path = "../common/mod.rs"]
 mod common;

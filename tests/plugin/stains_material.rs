@@ -1,5 +1,5 @@
-//! The material that draws stains comes and goes with the coating, and follows the prop's own. Needs a graphics adapter,
-//! be it a software renderer.
+//! The material that draws stains comes and goes with the coating, and follows the prop's own. Needs a graphics
+//! adapter, be it a software renderer.
 
 use bevy::{
     camera::RenderTarget,

@@ -1,5 +1,5 @@
-//! What stains look like when drawn: the shader against its twin, in each pass, and what pictures show. Needs a graphics
-//! adapter, be it a software renderer.
+//! Stains as they are drawn: the shader against its twin, and in each pass. Needs a graphics adapter, be it a software
+//! renderer.
 
 use bevy::{core_pipeline::prepass::*, pbr::DefaultOpaqueRendererMethod, prelude::*};
 use bevy_coating::{
