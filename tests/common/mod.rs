@@ -138,12 +138,15 @@ pub fn app_of_other_process() -> Option<App> {
     Some(app)
 }
 
-/// What the test `test` of this program prints after `digest ` when it runs in a process with `threads` threads.
+/// What the test `test` of this program, a path of modules and its name, prints after `digest ` when it runs alone in a
+/// process with `threads` threads: Bevy makes its pools of threads once in a process.
 fn digests_on(threads: &str, test: &str) -> Vec<String> {
     let program = std::env::current_exe().expect("this program");
     let mut process = std::process::Command::new(program);
     process.args(["--exact", test, "--nocapture"]).env(THREADS, threads);
-    let output = String::from_utf8(process.output().expect("a run").stdout).expect("text");
+    let output = process.output().expect("a run");
+    assert!(output.status.success(), "{test} on {threads} threads: {}", String::from_utf8_lossy(&output.stderr));
+    let output = String::from_utf8(output.stdout).expect("text");
     // The harness may print on the same line.
     output.match_indices("digest ").map(|(at, _)| output[at..at + 71].to_string()).collect()
 }

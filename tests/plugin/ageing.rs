@@ -1,7 +1,5 @@
 //! Films age in an app as they do without one, whatever the frames and threads.
 
-mod common;
-
 use std::time::Duration;
 
 use bevy::{
@@ -10,7 +8,8 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 use bevy_coating::{prelude::*, remesh::build_film, sim::FilmState, stain::Environment, surface::Surface};
-use common::*;
+
+use crate::common::*;
 
 /// The plate's film and settings, without an app.
 fn reference(n: u32, coating: &Coating) -> (FilmState, CoatingSettings) {
@@ -83,7 +82,7 @@ fn digests_for_other_processes() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    assert_same_on_any_number_of_threads("digests_for_other_processes");
+    assert_same_on_any_number_of_threads("ageing::digests_for_other_processes");
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! The clock, the budget and the pace of single props.
 
-mod common;
-
 use std::time::Duration;
 
 use bevy::{
@@ -9,7 +7,8 @@ use bevy::{
     prelude::*,
 };
 use bevy_coating::{diagnostics, prelude::*, sim::FilmClock};
-use common::*;
+
+use crate::common::*;
 
 fn steps(app: &App, film: Entity) -> u64 {
     app.world().get::<FilmClock>(film).expect("a film").steps

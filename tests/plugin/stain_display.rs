@@ -1,12 +1,11 @@
 //! How stains are shown where there is nothing to draw with: vertex colours, attributes, and materials left alone.
 
-mod common;
-
 use bevy::{mesh::VertexAttributeValues, prelude::*};
 use bevy_coating::{
     ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS, appearance::DisplayChanges, prelude::*, stain::StainFields,
 };
-use common::*;
+
+use crate::common::*;
 
 const OWN: [f32; 4] = [0.2, 0.5, 0.9, 0.75];
 

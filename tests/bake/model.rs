@@ -1,11 +1,8 @@
 //! Aged models of the `bake` example in another reader, which checks what it reads.
 
-#[path = "common/tool.rs"]
-mod tool;
-
 use std::{fs, path::Path};
 
-use tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares};
+use crate::tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares};
 
 /// The aged model in the `gltf` crate, which validates what it reads.
 fn read_back(path: &Path) -> (gltf::Document, Vec<u8>) {

@@ -1,12 +1,11 @@
 //! A frame that has no time for all: near props first, none forgotten, and the same state in the end.
 
-mod common;
-
 use std::time::Duration;
 
 use bevy::prelude::*;
 use bevy_coating::{CoatingBudget, CoatingClock, CoatingStatus, sim::FilmClock};
-use common::*;
+
+use crate::common::*;
 
 /// So many steps a frame, if there is time.
 const STEPS: u64 = 2;

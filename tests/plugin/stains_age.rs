@@ -1,32 +1,17 @@
 //! Pictures of props whose stains are those of the simulation. Needs a graphics adapter, be it a software renderer.
 
-#![cfg(feature = "render")]
-
-mod common;
-#[path = "common/stained.rs"]
-mod stained;
-#[path = "common/studio.rs"]
-mod studio;
-
 use bevy::prelude::*;
 use bevy_coating::{
     film::{FilmMesh, HalfEdgeId, VertexId},
     fracture::FilmForces,
     prelude::*,
 };
-use common::{add_mesh, plate, quick_coating, update_until};
-use stained::save;
-use studio::{Picture, Studio};
 
-/// Skips a test without an adapter.
-macro_rules! need_adapter {
-    () => {
-        if !studio::adapter_exists() {
-            println!("skipped: no graphics adapter was found (a software renderer would do: mesa-vulkan-drivers)");
-            return;
-        }
-    };
-}
+use crate::{
+    common::{add_mesh, plate, quick_coating, update_until},
+    stained::save,
+    studio::{Picture, Studio},
+};
 
 /// Distance of the camera from the plates, a metre wide, that stand about the origin.
 const EYE: f32 = 1.8;
@@ -62,8 +47,7 @@ fn rusty_share(picture: &Picture) -> f64 {
 
 #[test]
 fn there_is_no_rust_on_fresh_paint_and_more_and_more_later() {
-    need_adapter!();
-    let mut studio = Studio::new(400, 300, ".");
+    let Some(mut studio) = Studio::open(400, 300, ".") else { return };
     spawn_white(&mut studio, 24, quick_coating().with_seed(2));
     let mut last = -1.0;
     for age in [0.0, 0.5, 0.8, 1.1] {
@@ -115,8 +99,7 @@ fn crack(app: &mut App, film: Entity, ends: [Vec3; 2]) {
 
 #[test]
 fn rust_runs_down_from_a_lone_crack_whichever_way_down_is() {
-    need_adapter!();
-    let mut studio = Studio::new(400, 300, ".");
+    let Some(mut studio) = Studio::open(400, 300, ".") else { return };
     for (name, down) in [("down", Vec3::NEG_Y), ("left", Vec3::NEG_X)] {
         studio.app.insert_resource(CoatingGravity(down));
         let film = spawn_white(&mut studio, 24, held());

@@ -1,9 +1,5 @@
 //! Backs of flakes, bare metal, and materials, without a GPU.
 
-#![cfg(feature = "render")]
-
-mod common;
-
 use bevy::{
     asset::AsAssetId,
     camera::visibility::RenderLayers,
@@ -14,7 +10,8 @@ use bevy::{
     render::render_resource::{AsBindGroup, Face},
 };
 use bevy_coating::{CoatingPart, prelude::*};
-use common::*;
+
+use crate::common::*;
 
 /// The app with standard materials, but nothing to draw them.
 fn app_with_materials() -> App {

@@ -1,17 +1,11 @@
 //! At age 0 a coated prop looks like the uncoated one. Needs a graphics adapter, be it a software renderer.
 
-#![cfg(feature = "render")]
-
-mod common;
-#[path = "common/studio.rs"]
-mod studio;
-
 use std::path::PathBuf;
 
 use bevy::{gltf::GltfAssetLabel, prelude::*, world_serialization::WorldAssetRoot};
 use bevy_coating::prelude::*;
-use common::update_until;
-use studio::Studio;
+
+use crate::{common::update_until, studio::Studio};
 
 /// A prop, what to look at, and eyes: outside, behind, and inside or below its open shell.
 struct Prop {
@@ -36,10 +30,7 @@ const PROPS: [Prop; 2] = [
     },
 ];
 
-fn props_folder() -> Option<&'static str> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/props");
-    PROPS.iter().all(|prop| std::path::Path::new(folder).join(prop.file).exists()).then_some(folder)
-}
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/props");
 
 /// Where to leave the pictures: `COATING_PICTURES`, if set.
 fn output() -> Option<PathBuf> {
@@ -50,16 +41,8 @@ fn output() -> Option<PathBuf> {
 
 #[test]
 fn a_fresh_prop_looks_like_the_uncoated_one() {
-    if !studio::adapter_exists() {
-        println!("skipped: no graphics adapter was found (a software renderer would do: mesa-vulkan-drivers)");
-        return;
-    }
-    let Some(folder) = props_folder() else {
-        println!("skipped: the props are not in assets/props");
-        return;
-    };
     let output = output();
-    let mut studio = Studio::new(640, 480, folder);
+    let Some(mut studio) = Studio::open(640, 480, FOLDER) else { return };
     let mut worst = f64::INFINITY;
     for prop in &PROPS {
         let scene = studio.app.world().resource::<AssetServer>().load(GltfAssetLabel::Scene(0).from_asset(prop.file));

@@ -1,9 +1,5 @@
 //! What stands around a prop keeps rain and sun off it.
 
-mod common;
-#[path = "common/sky.rs"]
-mod sky;
-
 use std::time::Duration;
 
 use bevy::{asset::RenderAssetUsages, math::Affine3A, prelude::*};
@@ -11,8 +7,8 @@ use bevy_coating::{
     prelude::*,
     stain::{Exposure, StainFields, exposure::exposure_of},
 };
-use common::*;
-use sky::*;
+
+use crate::{common::*, sky::*};
 
 /// Exposure to rain of the lying plate at `x`, in the middle of z.
 fn rain_at(app: &App, film: Entity, x: f32) -> f32 {
@@ -148,7 +144,7 @@ fn meshes_of_one_prop_shelter_each_other() {
     wait_for_films(&mut app, 2);
     assert_eq!((rain_at(&app, below, 0.1), rain_at(&app, below, 0.9)), (0.0, 1.0));
     assert_eq!(*exposure(&app, above), Exposure::default());
-    let mut app = common::app();
+    let mut app = crate::common::app();
     app.insert_resource(RAIN);
     let (plate_mesh, other) = (add_mesh(&mut app, plate(10)), add_mesh(&mut app, plate(9)));
     let below = app.world_mut().spawn((Mesh3d(plate_mesh), lying(), quick_coating())).id();

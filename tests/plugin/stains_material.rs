@@ -1,11 +1,5 @@
-//! The material that draws stains comes and goes with the coating, and follows the prop's own. Needs a graphics adapter,
-//! be it a software renderer.
-
-#![cfg(feature = "render")]
-
-mod common;
-#[path = "common/studio.rs"]
-mod studio;
+//! The material that draws stains comes and goes with the coating, and follows the prop's own. Needs a graphics
+//! adapter, be it a software renderer.
 
 use bevy::{
     camera::RenderTarget,
@@ -14,21 +8,14 @@ use bevy::{
     render::render_resource::TextureFormat,
 };
 use bevy_coating::{CoatedMaterial, StainedMaterial, prelude::*};
-use common::{add_mesh, plate, quick_coating, update_until};
-use studio::Studio;
+
+use crate::{
+    common::{add_mesh, plate, quick_coating, update_until},
+    studio::Studio,
+};
 
 type Own = MeshMaterial3d<StandardMaterial>;
 type Worn = MeshMaterial3d<StainedMaterial>;
-
-/// Skips a test without an adapter.
-macro_rules! need_adapter {
-    () => {
-        if !studio::adapter_exists() {
-            println!("skipped: no graphics adapter was found (a software renderer would do: mesa-vulkan-drivers)");
-            return;
-        }
-    };
-}
 
 fn add_material(app: &mut App, color: Color) -> Handle<StandardMaterial> {
     app.world_mut().resource_mut::<Assets<StandardMaterial>>().add(color)
@@ -57,8 +44,7 @@ fn set_display(app: &mut App, prop: Entity, display: StainDisplay) {
 
 #[test]
 fn a_coated_prop_wears_its_own_material_with_stains_and_gets_it_back() {
-    need_adapter!();
-    let mut studio = Studio::new(64, 48, ".");
+    let Some(mut studio) = Studio::open(64, 48, ".") else { return };
     let (prop, own) = coated(&mut studio);
     let app = &mut studio.app;
     assert!(app.world().get::<Own>(prop).is_none(), "never two materials");
@@ -106,8 +92,7 @@ fn a_coated_prop_wears_its_own_material_with_stains_and_gets_it_back() {
 
 #[test]
 fn materials_change_off_screen_and_on_it_before_several_cameras() {
-    need_adapter!();
-    let mut studio = Studio::new(160, 120, ".");
+    let Some(mut studio) = Studio::open(160, 120, ".") else { return };
     // A second view with passes of its own, and shadows.
     let image = Image::new_target_texture(80, 60, TextureFormat::Rgba8UnormSrgb, None);
     let image = studio.app.world_mut().resource_mut::<Assets<Image>>().add(image);

@@ -1,14 +1,13 @@
 //! Coating and uncoating: groups, scenes, waiting, swapping, despawning, and meshes that cannot be coated.
 
-mod common;
-
 use bevy::{
     asset::RenderAssetUsages,
     mesh::{Indices, PrimitiveTopology, VertexAttributeValues, skinning::SkinnedMesh},
     prelude::*,
 };
 use bevy_coating::{CoatingPart, film::FilmMesh, prelude::*, surface::BuildError};
-use common::*;
+
+use crate::common::*;
 
 fn films(app: &mut App) -> Vec<(Entity, Entity)> {
     let mut films: Vec<_> = app

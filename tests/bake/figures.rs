@@ -1,15 +1,10 @@
-//! The `bake` example from outside: exit codes, figures and files. Includes the example's modules too, so that their
-//! unit tests run.
-
-#[path = "../examples/common/mod.rs"]
-mod common;
-#[path = "common/tool.rs"]
-mod tool;
+//! The `bake` example from outside: exit codes, figures and files.
 
 use std::{collections::BTreeSet, fs};
 
 use serde_json::{Value, json};
-use tool::{QUICK, bake, baked, files, folder, keys, number, stats, write_two_squares};
+
+use crate::tool::{QUICK, bake, baked, files, folder, keys, number, stats, write_two_squares};
 
 #[test]
 fn figures_have_their_layout_and_agree_with_each_other() {

@@ -1,14 +1,13 @@
 //! What is shown follows the film, and assets are touched only when it changed.
 
-mod common;
-
 use bevy::{
     asset::RenderAssetUsages,
     mesh::{Indices, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues, VertexFormat},
     prelude::*,
 };
 use bevy_coating::prelude::*;
-use common::*;
+
+use crate::common::*;
 
 /// The mesh shown on `entity`.
 fn shown(app: &App, entity: Entity) -> Mesh {

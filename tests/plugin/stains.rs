@@ -1,9 +1,5 @@
 //! Stains in an app are those of the simulation; wind, gravity, rain and sun turn with the prop.
 
-mod common;
-#[path = "common/sky.rs"]
-mod sky;
-
 use std::time::Duration;
 
 use bevy::{prelude::*, time::TimeUpdateStrategy};
@@ -13,8 +9,8 @@ use bevy_coating::{
     sim::FilmState,
     stain::{Environment, Exposure},
 };
-use common::*;
-use sky::*;
+
+use crate::{common::*, sky::*};
 
 fn environment(app: &App, film: Entity) -> Environment {
     app.world().get::<FilmPace>(film).expect("a film").environment
@@ -132,7 +128,7 @@ fn weather_that_is_no_number_does_no_harm() {
     wait_for_films(&mut app, 1);
     take_steps(&mut app, 80);
     let expected = {
-        let mut app = common::app();
+        let mut app = crate::common::app();
         let film = spawn_plate(&mut app, 10, wet_coating());
         wait_for_films(&mut app, 1);
         take_steps(&mut app, 80);
@@ -191,5 +187,5 @@ fn digests_for_other_processes() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    assert_same_on_any_number_of_threads("digests_for_other_processes");
+    assert_same_on_any_number_of_threads("stains::digests_for_other_processes");
 }

@@ -1,0 +1,35 @@
+//! The plugin from outside: apps without a window, stepped frame by frame, and pictures of them.
+//!
+//! One binary, since each would link the engine. Pools of threads and the logger are those of the process: a test that
+//! needs its own starts this program again (`assert_same_on_any_number_of_threads`).
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/sky.rs"]
+mod sky;
+#[cfg(feature = "render")]
+#[path = "../common/stained.rs"]
+mod stained;
+#[cfg(feature = "render")]
+#[path = "../common/studio.rs"]
+mod studio;
+
+mod ageing;
+mod attach;
+mod budget;
+mod clock;
+mod display;
+#[cfg(feature = "render")]
+mod parts;
+#[cfg(feature = "render")]
+mod picture;
+mod settings;
+mod shelter;
+mod stain_display;
+mod stains;
+#[cfg(feature = "render")]
+mod stains_age;
+#[cfg(feature = "render")]
+mod stains_material;
+#[cfg(feature = "render")]
+mod stains_picture;
