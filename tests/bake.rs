@@ -1,8 +1,5 @@
-//! The `bake` example from outside: exit codes, figures and files. Includes the example's modules too, so that their
-//! unit tests run.
+//! The program `coating-bake` from outside: exit codes, figures and files.
 
-#[path = "../examples/common/mod.rs"]
-mod common;
 #[path = "common/tool.rs"]
 mod tool;
 
