@@ -89,6 +89,8 @@ mod api;
 pub mod appearance;
 #[cfg(feature = "plugin")]
 mod attach;
+#[cfg(feature = "bake")]
+pub mod bake;
 pub mod deform;
 #[cfg(feature = "plugin")]
 mod display;

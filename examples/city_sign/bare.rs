@@ -1,9 +1,9 @@
 //! The sign, for ageing it where nothing can be drawn.
 
 use crate::cli::Options;
-use crate::common::{self, BakeError, BakeOptions, Input, Resolution};
 use crate::common_scene::bare::Piece;
 use crate::common_scene::graphics;
+use bevy_coating::bake::{BakeError, BakeOptions, Images, Input, Resolution};
 use std::path::Path;
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
@@ -18,6 +18,6 @@ pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
         ..BakeOptions::default()
     };
     let sign = Path::new(graphics::ASSETS).join("city/street_sign.glb");
-    let model = common::read(&Input::File(sign), options.scene.seed, true)?;
+    let model = Input::File(sign).read(options.scene.seed, Images::Load)?;
     Ok(vec![Piece { name: "street_sign_aged".into(), model, options: bake }])
 }

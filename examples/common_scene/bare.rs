@@ -1,8 +1,8 @@
 //! Without a graphics adapter nothing can be drawn. The props are aged all the same, and written as models that any
 //! viewer opens, with the figures of the runs.
 
-use crate::common::{self, BakeError, BakeOptions, Model, Progress, Staged, StainOutput, Stopwatch};
 use bevy::prelude::AppExit;
+use bevy_coating::bake::{BakeError, BakeOptions, Model, Progress, StagedFiles, StainOutput, Stopwatch, bake};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -39,11 +39,11 @@ pub fn run(folder: &Path, pieces: Result<Vec<Piece>, BakeError>) -> AppExit {
 
 fn age(piece: Piece, folder: &Path) -> Result<(), BakeError> {
     let told = Told { name: piece.name.clone(), ..Told::default() };
-    let mut baked = common::bake(piece.model, &piece.options, Stopwatch::start(), &told)?;
+    let mut baked = bake(piece.model, &piece.options, Stopwatch::start(), &told)?;
     let file = |ending: &str| -> PathBuf { folder.join(format!("{}.{ending}", piece.name)) };
     let (aged, figures) = (file("glb"), file("json"));
-    let mut files = Staged::default();
-    files.add(&aged, &common::aged_glb(&mut baked, StainOutput::default())?)?;
+    let mut files = StagedFiles::default();
+    files.add(&aged, &baked.glb(StainOutput::default())?)?;
     files.add(&figures, baked.stats().to_json().as_bytes())?;
     files.commit()?;
     for warning in &baked.warnings {

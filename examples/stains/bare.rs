@@ -1,11 +1,11 @@
 //! The pieces, for ageing them where nothing can be drawn: a model for each row.
 
 use crate::cli::Options;
-use crate::common::{BakeError, BakeOptions, Resolution};
 use crate::common_scene::bare::Piece;
 use crate::pieces;
 use crate::stage;
 use crate::weather;
+use bevy_coating::bake::{BakeError, BakeOptions, Resolution};
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
     let mut models = Vec::new();

@@ -8,8 +8,6 @@
 
 mod bare;
 mod cli;
-#[path = "../common/mod.rs"]
-mod common;
 #[path = "../common_scene/mod.rs"]
 mod common_scene;
 mod label;

@@ -1,10 +1,10 @@
 //! What is stained: a plate, a sphere, a cube with bevels, and a fire hydrant.
 
-use crate::common::{self, BakeError, Input, Model, ModelMesh, Slot};
 use crate::common_scene::graphics;
 use crate::rounded_box::{Shape, rounded_box};
 use bevy::gltf::GltfAssetLabel;
 use bevy::prelude::*;
+use bevy_coating::bake::{BakeError, Images, Input, Model, ModelMesh, Slot};
 use std::path::Path;
 
 const HYDRANT: &str = "props/prop_firehydrant.glb";
@@ -65,7 +65,7 @@ impl Piece {
 /// All pieces side by side, `spacing` metres apart, as a model.
 pub fn model(spacing: f32) -> Result<Model, BakeError> {
     let file = Path::new(graphics::ASSETS).join(HYDRANT);
-    let mut model = common::read(&Input::File(file), 0, true)?;
+    let mut model = Input::File(file).read(0, Images::Load)?;
     let material = Some(model.materials.add_plain_paint());
     let hydrants = std::mem::take(&mut model.meshes);
     for (column, piece) in Piece::ALL.into_iter().enumerate() {

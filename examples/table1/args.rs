@@ -2,13 +2,14 @@
 
 use std::{ffi::OsString, path::PathBuf};
 
-use bevy_coating::deform::SolverQuality;
+use bevy_coating::{
+    bake::{Input, TestPiece},
+    deform::SolverQuality,
+};
 use clap::{
     Parser,
     builder::{OsStringValueParser, TypedValueParser},
 };
-
-use crate::common::{Generator, Input};
 
 /// The paper's Table 1: seconds of ageing and what they were spent on, ours beside the paper's
 #[derive(Debug, Parser)]
@@ -38,7 +39,7 @@ impl Args {
     /// The models asked for.
     pub fn models(&self) -> Vec<Input> {
         if self.models.is_empty() {
-            vec![Input::Piece(Generator::Plate, 3012), Input::Piece(Generator::Curved, 3005)]
+            vec![Input::Piece(TestPiece::Plate, 3012), Input::Piece(TestPiece::Curved, 3005)]
         } else {
             self.models.clone()
         }

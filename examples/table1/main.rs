@@ -10,16 +10,14 @@
 //! standard error, on bad input; or 2 for bad usage.
 
 mod args;
-#[path = "../common/mod.rs"]
-mod common;
 mod report;
 mod run;
 
 use std::process::ExitCode;
 
 use args::Args;
+use bevy_coating::bake::{BakeError, StagedFiles};
 use clap::Parser;
-use common::{BakeError, Staged};
 
 fn main() -> ExitCode {
     match run(&Args::parse()) {
@@ -33,13 +31,13 @@ fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<(), BakeError> {
     if let Some(path) = &args.json {
-        Staged::check(path)?;
+        StagedFiles::check(path)?;
     }
     // All models are read first: a wrong name should not be found after a minute of work.
     let models = args.models().iter().map(|input| run::load(input, args)).collect::<Result<Vec<_>, _>>()?;
     let rows: Vec<_> = models.iter().map(|model| run::measure(model, args)).collect();
     if let Some(path) = &args.json {
-        let mut files = Staged::default();
+        let mut files = StagedFiles::default();
         files.add(path, report::json(&rows).as_bytes())?;
         files.commit()?;
     }

@@ -4,16 +4,14 @@ use std::time::{Duration, Instant};
 
 use bevy_coating::{
     appearance::{DisplayChanges, FilmAppearance},
+    bake::{BakeError, BakeOptions, Coated, Images, Input, Resolution, coat},
     deform::{SimdLevel, SolverQuality, sweeps_of_step},
     settings::CoatingSettings,
     sim::{FilmState, Stage, StageTimes},
     stain::Environment,
 };
 
-use crate::{
-    args::Args,
-    common::{self, BakeError, Coated, CoatedWith, Input, Resolution, coat},
-};
+use crate::args::Args;
 
 /// A model and its films at rest.
 pub struct Loaded {
@@ -50,16 +48,15 @@ pub const STAGES: [(Stage, &str); 5] = [
 
 /// Reads a model and makes its films.
 pub fn load(input: &Input, args: &Args) -> Result<Loaded, BakeError> {
-    let model = common::read(input, args.seed, false)?;
-    let settings = CoatingSettings::default();
-    let with = CoatedWith {
+    let model = input.read(args.seed, Images::Skip)?;
+    let options = BakeOptions {
         resolution: Resolution::Keep,
-        settings: &settings,
         seed: args.seed,
-        steps_per_age: args.steps,
+        steps: args.steps,
         quality: args.quality,
+        ..BakeOptions::default()
     };
-    let coated = coat(&model.origin, model.meshes, &with)?;
+    let coated = coat(&model.origin, model.meshes, &options)?;
     Ok(Loaded { name: model.origin, coated })
 }
 

@@ -1,4 +1,4 @@
-//! The `bake` example from outside: exit codes, figures and files.
+//! The program `coating-bake` from outside: exit codes, figures and files.
 
 use std::{collections::BTreeSet, fs};
 

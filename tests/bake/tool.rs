@@ -1,4 +1,4 @@
-//! The `bake` example as a tool, and a small model for it.
+//! The program `coating-bake`, and a small model for it.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 use std::{
@@ -10,13 +10,9 @@ use std::{
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The example, which cargo builds before it runs tests: beside the folder of this test.
+/// The program, which cargo builds before it runs tests.
 pub fn tool() -> PathBuf {
-    let test = std::env::current_exe().expect("a path of the test");
-    let profile = test.ancestors().nth(2).expect("a folder of the profile");
-    let tool = profile.join("examples").join(format!("bake{}", std::env::consts::EXE_SUFFIX));
-    assert!(tool.is_file(), "{} is missing: cargo build --example bake", tool.display());
-    tool
+    env!("CARGO_BIN_EXE_coating-bake").into()
 }
 
 pub fn bake(folder: &Path, arguments: &[&str]) -> Output {

@@ -1,0 +1,126 @@
+//! Ages all films of a model from age 0 to the age asked for, and measures them on the way.
+
+use web_time::Instant;
+
+use super::{
+    baked::Baked,
+    coat::{Coated, coat},
+    error::BakeError,
+    model::Model,
+    options::BakeOptions,
+    parallel,
+    progress::Progress,
+    shelter::shelter,
+    stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats},
+    stopwatch::Stopwatch,
+};
+use crate::sim::{FilmMeasures, FilmState, StageTimes};
+
+/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`]. `stopwatch` has run since before the
+/// model was read.
+///
+/// ```
+/// use bevy_coating::bake::{BakeOptions, Images, Input, Stopwatch, bake};
+///
+/// let stopwatch = Stopwatch::start();
+/// let model = Input::parse("disk:60".as_ref())?.read(3, Images::Skip)?;
+/// let options = BakeOptions { age: 0.1, seed: 3, ..BakeOptions::default() };
+/// let baked = bake(model, &options, stopwatch, &())?;
+/// // Measured at ages 0, 0.05 and 0.1.
+/// assert_eq!(baked.stats().timeline.len(), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BakeError::Options`] if an option is out of its range, [`BakeError::Build`] if no film can be made of a mesh,
+/// [`BakeError::Broken`] if a film is not sound.
+pub fn bake(
+    model: Model,
+    options: &BakeOptions,
+    mut stopwatch: Stopwatch,
+    progress: &dyn Progress,
+) -> Result<Baked, BakeError> {
+    let Model { origin, copyright, meshes, materials, mut warnings } = model;
+    options.validate()?;
+    let input = InputStats::of(&meshes);
+    let coated = stopwatch.build(|| coat(&origin, meshes, options))?;
+    let Coated { props, mut films, warnings: built } = coated;
+    warnings.extend(built);
+
+    stopwatch.build(|| shelter(&props, &mut films, &options.environment));
+
+    let film = FilmStats::of(&films);
+    let timeline = age(&mut films, options, &mut stopwatch, progress);
+    for (film, prop) in films.iter().zip(&props) {
+        film.validate().map_err(|cause| BakeError::Broken {
+            origin: origin.clone(),
+            mesh: prop.name.clone(),
+            source: cause.into(),
+        })?;
+    }
+    let mut hasher = blake3::Hasher::new();
+    films.iter().for_each(|film| film.digest_into(&mut hasher));
+    let run = RunStats {
+        age: options.age,
+        steps: options.steps,
+        seed: options.seed,
+        preset: options.preset.clone(),
+        sweeps_per_age: options.settings.deform.sweeps_per_age,
+        quality: options.quality.name().into(),
+    };
+    let digest = hasher.finalize().to_hex().to_string();
+    let stats = Stats { schema: STATS_SCHEMA, input, film, run, seconds: stopwatch.seconds(), timeline, digest };
+    Ok(Baked { origin, copyright, props, films, materials, warnings, stopwatch, stats })
+}
+
+/// Ages of the timeline: every twentieth up to `age`, and `age` itself.
+fn timeline_ages(age: f64) -> Vec<f64> {
+    let mut ages: Vec<f64> = (0u32..).map(|k| f64::from(k) / 20.0).take_while(|&k| k < age).collect();
+    ages.push(age);
+    ages
+}
+
+/// Ages the films, measuring them at every age of the timeline.
+fn age(
+    films: &mut [FilmState],
+    options: &BakeOptions,
+    stopwatch: &mut Stopwatch,
+    progress: &dyn Progress,
+) -> Vec<FilmMeasures> {
+    let Some(clock) = films.first().map(|film| film.clock) else { return Vec::new() };
+    let faces: u64 = films.iter().map(|film| film.mesh.topology.face_count() as u64).sum();
+    progress.begin(faces * clock.step_at(options.age));
+    let mut timeline = Vec::new();
+    for age in timeline_ages(options.age) {
+        let step = clock.step_at(age);
+        let start = Instant::now();
+        let mut runs: Vec<_> = films.iter_mut().map(|film| (film, StageTimes::default())).collect();
+        parallel::for_each(&mut runs, |(film, times)| {
+            let work = film.mesh.topology.face_count() as u64;
+            while film.clock.steps < step {
+                film.step_timed(&options.settings, &options.environment, times);
+                progress.advance(work);
+            }
+        });
+        let mut times = StageTimes::default();
+        runs.iter().for_each(|(_, own)| times.merge(own));
+        stopwatch.add_stages(&times, start.elapsed());
+        timeline.push(FilmState::measure_all(films));
+    }
+    timeline
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_timeline_ends_at_the_age_asked_for() {
+        assert_eq!(timeline_ages(0.0), [0.0]);
+        assert_eq!(timeline_ages(0.1), [0.0, 0.05, 0.1]);
+        assert_eq!(timeline_ages(0.12), [0.0, 0.05, 0.1, 0.12]);
+        assert_eq!(timeline_ages(1.0).len(), 21);
+        assert_eq!(timeline_ages(0.3).last(), Some(&0.3));
+        assert_eq!(timeline_ages(0.3).len(), 7);
+    }
+}

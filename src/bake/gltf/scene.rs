@@ -1,0 +1,104 @@
+//! Walks over the nodes of the scene.
+
+use bevy_math::{DMat4, DQuat, DVec3};
+
+use super::{
+    GltfError,
+    container::Container,
+    document::{Node, lookup},
+    mesh::{self, MAX_TRIANGLES},
+};
+use crate::bake::{model::Model, warning::BakeWarning};
+
+/// Reads the meshes of the default scene: the one the file names, else its first; all nodes of a file without
+/// scenes.
+pub fn read_meshes(container: &Container, model: &mut Model) -> Result<(), GltfError> {
+    let document = &container.document;
+    let roots = match document.scene {
+        Some(scene) => lookup(&document.scenes, scene, "scene", "the file")?.nodes.clone(),
+        None => match document.scenes.first() {
+            Some(scene) => scene.nodes.clone(),
+            None => roots(&document.nodes),
+        },
+    };
+    let mut visited = vec![false; document.nodes.len()];
+    let mut total = 0;
+    // A stack, not recursion: a chain of nodes may be as deep as its file is long. Last in, first out, so
+    // children are pushed in reverse.
+    let mut stack: Vec<_> = roots.iter().rev().map(|&root| (root, DMat4::IDENTITY)).collect();
+    while let Some((index, parent)) = stack.pop() {
+        let node = lookup(&document.nodes, index, "node", "the scene")?;
+        if std::mem::replace(&mut visited[index], true) {
+            return Err(GltfError::NotATree(index));
+        }
+        let transform = parent * local_transform(node);
+        stack.extend(node.children.iter().rev().map(|&child| (child, transform)));
+        if let Some(mesh) = node.mesh {
+            total += read_node(container, model, node, mesh, transform)?;
+            if total > MAX_TRIANGLES {
+                let what = "the scene".into();
+                return Err(GltfError::TooMany { what, found: total as u64, limit: MAX_TRIANGLES as u64 });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Reads one node's mesh and returns its number of triangles.
+fn read_node(
+    container: &Container,
+    model: &mut Model,
+    node: &Node,
+    mesh: usize,
+    transform: DMat4,
+) -> Result<usize, GltfError> {
+    let unnamed = || format!("mesh {mesh}");
+    let mesh_name = || container.document.meshes.get(mesh).and_then(|mesh| mesh.name.clone());
+    let name = node.name.clone().or_else(mesh_name).unwrap_or_else(unnamed);
+    let mut placed = mesh::place(container, mesh, transform, &name)?;
+    let mesh = || name.clone();
+    if placed.skipped > 0 {
+        model.warnings.push(BakeWarning::PrimitivesSkipped { mesh: mesh(), count: placed.skipped });
+    }
+    if placed.morphed {
+        model.warnings.push(BakeWarning::Morphed { mesh: mesh() });
+    }
+    if node.skin.is_some() {
+        model.warnings.push(BakeWarning::Skinned { mesh: mesh() });
+    }
+    if placed.more_uvs {
+        model.warnings.push(BakeWarning::ExtraTextureCoordinates { mesh: mesh() });
+    }
+    let triangles = placed.mesh.surface.triangles.len();
+    if triangles > 0 {
+        placed.mesh.name = name;
+        model.meshes.push(placed.mesh);
+    }
+    Ok(triangles)
+}
+
+/// Nodes that are no node's child.
+fn roots(nodes: &[Node]) -> Vec<usize> {
+    let mut is_child = vec![false; nodes.len()];
+    for &child in nodes.iter().flat_map(|node| &node.children) {
+        if let Some(is_child) = is_child.get_mut(child) {
+            *is_child = true;
+        }
+    }
+    (0..nodes.len()).filter(|&i| !is_child[i]).collect()
+}
+
+/// In double precision: what lies far from the origin is moved near it later.
+fn local_transform(node: &Node) -> DMat4 {
+    if let Some(matrix) = &node.matrix {
+        return DMat4::from_cols_array(&matrix.map(f64::from));
+    }
+    let vector = |v: Option<[f32; 3]>, default: DVec3| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
+    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]).map(f64::from));
+    DMat4::from_scale_rotation_translation(
+        vector(node.scale, DVec3::ONE),
+        // A quaternion of zeros is no rotation.
+        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY },
+        vector(node.translation, DVec3::ZERO),
+    )
+}

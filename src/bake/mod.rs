@@ -1,0 +1,82 @@
+//! Ages the props of a model file without an engine, and writes them as a model that other programs read.
+//!
+//! ```text
+//! Input --read--> Model --bake--> Baked --> glb (aged model), stats (figures), csv (vertices) --> StagedFiles
+//! ```
+//!
+//! This is the library behind the program `coating-bake`. It needs the feature `bake`, and neither a window nor a
+//! graphics adapter.
+//!
+//! # From a prop to an aged model
+//!
+//! 1. [`Input::read`] reads a `.glb`, `.gltf` or `.obj` file, or makes a test piece of the paper;
+//!    [`Model::from_gltf`] and [`Model::from_obj`] read bytes in memory.
+//! 2. [`bake()`] makes a film for each mesh and ages all of them, each on a thread of its own. [`Progress`] tells how
+//!    far it is.
+//! 3. [`Baked::glb`] makes the aged model, with its stains in textures or in vertex colours ([`StainOutput`]);
+//!    [`Baked::stats`] returns the figures of the run, and [`Baked::csv`] all vertices.
+//! 4. [`StagedFiles`] writes files whole or not at all.
+//!
+//! The same model, options and seed give the same bits on every platform and on any number of threads.
+//!
+//! ```
+//! use bevy_coating::bake::{BakeOptions, Images, Input, StainOutput, Stopwatch, bake};
+//!
+//! let stopwatch = Stopwatch::start();
+//! let model = Input::parse("plate:200".as_ref())?.read(0, Images::Load)?;
+//! let options = BakeOptions { age: 0.2, steps: 200, ..BakeOptions::default() };
+//! let mut baked = bake(model, &options, stopwatch, &())?;
+//!
+//! let glb = baked.glb(StainOutput::Textures(64))?;
+//! assert!(glb.starts_with(b"glTF"));
+//!
+//! let stats = baked.stats();
+//! assert_eq!(stats.film.triangles, 200);
+//! let last = stats.timeline.last().expect("the age asked for");
+//! assert_eq!(last.age, 0.2);
+//! assert!(baked.warnings.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What is kept of a model
+//!
+//! Materials go on as the JSON they are, with extensions that nobody here knows. Base colour, metalness, roughness and
+//! normals are baked together with the stains where stains are written into textures. Cameras, lights, animations and
+//! skins are left out; skinned and morphed meshes are aged in their bind pose. Each of these is a [`BakeWarning`].
+
+mod age;
+mod baked;
+mod coat;
+mod dump;
+mod error;
+mod glb;
+mod gltf;
+mod input;
+mod model;
+mod obj;
+mod options;
+mod output;
+mod parallel;
+mod progress;
+mod shelter;
+mod stain_output;
+mod stats;
+mod stopwatch;
+mod textures;
+mod warning;
+
+pub use age::bake;
+pub use baked::Baked;
+pub use coat::{Coated, Prop, coat};
+pub use error::{BakeError, BrokenFilm, OptionsError};
+pub use gltf::GltfError;
+pub use input::{Images, Input, InputError, TestPiece};
+pub use model::{Image, MaterialLibrary, Model, ModelMesh, Slot};
+pub use obj::ObjError;
+pub use options::{BakeOptions, MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, Resolution};
+pub use output::StagedFiles;
+pub use progress::Progress;
+pub use stain_output::{StainOutput, TEXTURE_SIZES};
+pub use stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats};
+pub use stopwatch::{Seconds, Stopwatch};
+pub use warning::BakeWarning;

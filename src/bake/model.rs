@@ -1,0 +1,176 @@
+//! Holds a model as it was read: surfaces in scene space, and its materials.
+
+use std::path::Path;
+
+use bevy_math::{DVec3, Vec3};
+use serde_json::Value;
+
+use super::{
+    gltf::{self, GltfError},
+    input::Images,
+    obj::{self, ObjError},
+    warning::BakeWarning,
+};
+use crate::{remesh::BuiltFilm, surface::Surface};
+
+/// Everything that a file holds and ageing needs. Read it from a file with [`Input::read`](super::Input::read), from
+/// bytes with [`from_gltf`](Self::from_gltf) or [`from_obj`](Self::from_obj), or put it together.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// Name of the input in messages: the file or the test piece.
+    pub origin: String,
+    /// Copyright notice (glTF `asset.copyright`); kept in the aged model.
+    pub copyright: Option<String>,
+    /// One mesh for each node that has one, in the order in which the scene is walked.
+    pub meshes: Vec<ModelMesh>,
+    /// Materials of the file.
+    pub materials: MaterialLibrary,
+    /// Everything that was left out or changed.
+    pub warnings: Vec<BakeWarning>,
+}
+
+impl Model {
+    /// Reads a model from the bytes of a .glb or .gltf file. Buffers and images that are files of their own are looked
+    /// up in `folder` and below; without a folder they are refused.
+    ///
+    /// ```
+    /// use bevy_coating::bake::{Images, Model};
+    ///
+    /// let mut positions = Vec::new();
+    /// for x in [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
+    ///     positions.extend(x.to_le_bytes());
+    /// }
+    /// # use base64::{Engine, engine::general_purpose::STANDARD};
+    /// # let base64 = STANDARD.encode(&positions);
+    /// let json = format!(
+    ///     r#"{{
+    ///         "asset": {{ "version": "2.0" }},
+    ///         "nodes": [{{ "name": "shard", "mesh": 0 }}],
+    ///         "meshes": [{{ "primitives": [{{ "attributes": {{ "POSITION": 0 }} }}] }}],
+    ///         "accessors": [{{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }}],
+    ///         "bufferViews": [{{ "buffer": 0, "byteLength": 36 }}],
+    ///         "buffers": [{{ "byteLength": 36, "uri": "data:;base64,{base64}" }}]
+    ///     }}"#
+    /// );
+    /// let model = Model::from_gltf(json.as_bytes(), None, Images::Load)?;
+    /// assert_eq!(model.meshes[0].name, "shard");
+    /// assert_eq!(model.meshes[0].surface.triangles.len(), 1);
+    /// assert!(Model::from_gltf(b"no model", None, Images::Load).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`GltfError`] if the bytes are no usable glTF 2.0.
+    pub fn from_gltf(bytes: &[u8], folder: Option<&Path>, images: Images) -> Result<Self, GltfError> {
+        gltf::read(bytes, folder, images)
+    }
+
+    /// Reads a model from the bytes of an .obj file: one mesh called `name`, without materials.
+    ///
+    /// ```
+    /// use bevy_coating::bake::Model;
+    ///
+    /// let model = Model::from_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square")?;
+    /// assert_eq!(model.meshes[0].surface.triangles, [[0, 1, 2], [0, 2, 3]]);
+    /// # Ok::<(), bevy_coating::bake::ObjError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ObjError`] if the bytes are no usable OBJ.
+    pub fn from_obj(bytes: &[u8], name: &str) -> Result<Self, ObjError> {
+        obj::read(bytes, name)
+    }
+}
+
+/// Mesh of one node: one connected prop to the paint.
+#[derive(Clone, Debug, Default)]
+pub struct ModelMesh {
+    /// Name of the node, else of its mesh.
+    pub name: String,
+    /// Triangles in scene space, but for the place: around [`Self::origin`]. The surface's slots index [`Self::slots`].
+    pub surface: Surface,
+    /// Place in the scene where the surface's zero lies. Far from it single precision is too coarse for a film: the
+    /// rule that no vertex lies below its plane asks for 1e-5 of an edge.
+    pub origin: Vec3,
+    /// Attributes and material of each primitive.
+    pub slots: Vec<Slot>,
+    /// Film that comes with the mesh, as test pieces have one; `None`: one is built.
+    pub film: Option<BuiltFilm>,
+}
+
+/// Moves positions to around the middle of their bounding box, and returns that too.
+pub(super) fn centred(positions: &[DVec3]) -> (Vec<Vec3>, Vec3) {
+    let finite = || positions.iter().copied().filter(|p| p.is_finite());
+    let bounds = finite().map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)));
+    let middle = bounds.map_or(Vec3::ZERO, |(low, high)| (low * 0.5 + high * 0.5).as_vec3());
+    let middle = if middle.is_finite() { middle } else { Vec3::ZERO };
+    (positions.iter().map(|&p| (p - middle.as_dvec3()).as_vec3()).collect(), middle)
+}
+
+/// Attributes that a primitive has, so that nothing is made up in the aged model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slot {
+    /// Index into [`MaterialLibrary::materials`]; `None`: glTF's default material.
+    pub material: Option<usize>,
+    /// Whether it has first texture coordinates.
+    pub uvs: bool,
+    /// Whether it has second texture coordinates.
+    pub uvs_1: bool,
+    /// Whether it has tangents.
+    pub tangents: bool,
+    /// Whether it has vertex colours.
+    pub colors: bool,
+}
+
+/// Materials as glTF has them. The arrays are kept whole and in order, so that every index in them holds, in extensions
+/// that nobody here knows too.
+///
+/// ```
+/// use bevy_coating::bake::MaterialLibrary;
+///
+/// let mut materials = MaterialLibrary::default();
+/// let paint = materials.add_plain_paint();
+/// assert_eq!(materials.materials[paint]["name"], "paint");
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct MaterialLibrary {
+    /// Materials (glTF `materials`).
+    pub materials: Vec<Value>,
+    /// Textures (glTF `textures`).
+    pub textures: Vec<Value>,
+    /// Samplers (glTF `samplers`).
+    pub samplers: Vec<Value>,
+    /// Images (glTF `images`) with their bytes; empty if they were skipped.
+    pub images: Vec<Image>,
+    /// Extensions that the file uses (glTF `extensionsUsed`).
+    pub extensions_used: Vec<String>,
+    /// Extensions that the file requires (glTF `extensionsRequired`).
+    pub extensions_required: Vec<String>,
+}
+
+/// A texture image as it was stored.
+#[derive(Clone, Debug, Default)]
+pub struct Image {
+    /// Name, if it has one.
+    pub name: Option<String>,
+    /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
+    pub mime_type: String,
+    /// Bytes of the encoded image.
+    pub bytes: Vec<u8>,
+    /// Extensions and extras of the image.
+    pub rest: serde_json::Map<String, Value>,
+}
+
+impl MaterialLibrary {
+    /// Adds plain two-sided paint, for models that come without materials, and returns its index.
+    pub fn add_plain_paint(&mut self) -> usize {
+        self.materials.push(serde_json::json!({
+            "name": "paint",
+            "doubleSided": true,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.55, 0.58, 0.60, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.45
+            }
+        }));
+        self.materials.len() - 1
+    }
+}

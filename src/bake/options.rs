@@ -1,0 +1,92 @@
+//! Holds how a model is aged.
+
+use super::error::OptionsError;
+use crate::{deform::SolverQuality, remesh, settings::CoatingSettings, stain::Environment};
+
+/// Greatest age that [`bake`](super::bake()) ages to.
+pub const MAX_AGE: f64 = 100.0;
+/// Most steps per unit age that [`bake`](super::bake()) takes.
+pub const MAX_STEPS_PER_AGE: u32 = 1_000_000;
+/// Most triangles that can be asked for, of films and of test pieces.
+pub const MAX_TRIANGLES: u32 = remesh::MAX_FILM_TRIANGLES as u32;
+
+/// How fine the films of a model are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resolution {
+    /// About this many triangles for all films together, shared by area: 4 to [`MAX_TRIANGLES`].
+    Triangles(u32),
+    /// One face for each triangle of the meshes, after cleaning.
+    Keep,
+}
+
+impl Default for Resolution {
+    fn default() -> Self {
+        Self::Triangles(4000)
+    }
+}
+
+/// Options of ageing.
+///
+/// ```
+/// use bevy_coating::{bake::{BakeOptions, Resolution}, settings::CoatingSettings};
+///
+/// let options = BakeOptions {
+///     resolution: Resolution::Triangles(800),
+///     settings: CoatingSettings::preset("heavy").unwrap_or_default(),
+///     age: 0.6,
+///     seed: 7,
+///     ..BakeOptions::default()
+/// };
+/// assert!(options.validate().is_ok());
+/// assert!(BakeOptions { age: f64::NAN, ..options }.validate().is_err());
+/// ```
+#[derive(Clone, Debug)]
+pub struct BakeOptions {
+    /// How fine the films are; default 4,000 triangles for all of them together.
+    pub resolution: Resolution,
+    /// Settings of the coating.
+    pub settings: CoatingSettings,
+    /// Name of the settings in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`.
+    pub preset: String,
+    /// Age to reach: 0 to [`MAX_AGE`], default 1, the end of the reference run.
+    pub age: f64,
+    /// Steps per unit age: 1 to [`MAX_STEPS_PER_AGE`], default 1,000.
+    pub steps: u32,
+    /// How bending is solved.
+    pub quality: SolverQuality,
+    /// Seed of films and forces; default 0.
+    pub seed: u64,
+    /// Gravity and weather in scene space; default still air and dry weather, with gravity along -y.
+    pub environment: Environment,
+}
+
+impl Default for BakeOptions {
+    fn default() -> Self {
+        Self {
+            resolution: Resolution::default(),
+            settings: CoatingSettings::default(),
+            preset: "default".into(),
+            age: 1.0,
+            steps: 1000,
+            quality: SolverQuality::default(),
+            seed: 0,
+            environment: Environment::default(),
+        }
+    }
+}
+
+impl BakeOptions {
+    /// Checks age, steps and settings against their ranges.
+    ///
+    /// # Errors
+    /// [`OptionsError`] for the first that is out of its range.
+    pub fn validate(&self) -> Result<(), OptionsError> {
+        if !(0.0..=MAX_AGE).contains(&self.age) {
+            return Err(OptionsError::Age { found: self.age });
+        }
+        if !(1..=MAX_STEPS_PER_AGE).contains(&self.steps) {
+            return Err(OptionsError::Steps { found: self.steps });
+        }
+        Ok(self.settings.validate()?)
+    }
+}
