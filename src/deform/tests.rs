@@ -5,7 +5,7 @@ use core::f32::consts::PI;
 use bevy_math::{DVec3, Vec3, ops};
 use proptest::prelude::*;
 
-use super::{bend::bend_corrections, length::length_corrections, plain::above_plane, rigid, *};
+use super::{bend::bend_corrections, half_space::above_plane, length::length_corrections, rigid, *};
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, LoosePieces, PieceScratch, TearEnd, signed_dihedral},
     settings::DeformSettings,
@@ -316,17 +316,17 @@ fn loose_pieces_neither_drift_nor_spin() {
     let mut changes = FilmChanges::default();
     changes.separated.extend(mesh.topology.all_vertices());
     update_constraints(&mesh, &mut constraints, &changes);
-    rigid::remember(&mesh.geometry.positions, &loose, &constraints, &mut kept);
+    rigid::remember(&mesh.geometry.positions, &loose, constraints.points(), &mut kept);
     let turn = bevy_math::Quat::from_axis_angle(Vec3::new(0.3, -0.5, 0.8).normalize(), 0.2);
     mesh.geometry.positions.iter_mut().for_each(|p| *p = turn * *p + Vec3::new(0.1, 0.2, 0.3));
-    rigid::put_back(&mut mesh.geometry, &loose, &mut constraints, &kept);
+    rigid::put_back(&mut mesh.geometry, &loose, constraints.points_mut(), &kept);
     for (p, q) in mesh.geometry.positions.iter().zip(&before) {
         assert!(p.distance(*q) < 1e-4, "{p} for {q}");
     }
     // Growing is no rigid motion and stays.
     mesh.geometry.positions.iter_mut().for_each(|p| *p *= 1.5);
-    rigid::remember(&before, &loose, &constraints, &mut kept);
-    rigid::put_back(&mut mesh.geometry, &loose, &mut constraints, &kept);
+    rigid::remember(&before, &loose, constraints.points(), &mut kept);
+    rigid::put_back(&mut mesh.geometry, &loose, constraints.points_mut(), &kept);
     let grown = mesh.geometry.positions.iter().zip(&before).all(|(p, q)| p.distance(*q * 1.5) < 1e-3);
     assert!(grown);
 }

@@ -3,24 +3,24 @@
 //! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused lanes
 //! refer to the null point, which nothing moves.
 
-use super::points::PointOffset;
+use super::point::PointOffset;
 
 /// Constraints in a pack.
 pub const LANES: usize = 32;
 
 /// One value a lane.
-pub(super) type Lane<T> = [T; LANES];
+pub type PerLane<T> = [T; LANES];
 
 /// Bend constraints as the sweeps read them.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct BendPack {
     /// Ends of the edge and tips of the two wings: p1, p2, p3, p4.
-    pub points: [Lane<PointOffset>; 4],
+    pub points: [PerLane<PointOffset>; 4],
     /// `skew cos(phi0 / 2)` of each wing: the cosine at which it rests.
-    pub folds: [Lane<f32>; 2],
+    pub folds: [PerLane<f32>; 2],
     /// Square of each wing's median at rest.
-    pub medians: [Lane<f32>; 2],
+    pub medians: [PerLane<f32>; 2],
 }
 
 /// What the folds of a [`BendPack`] are made of.
@@ -28,11 +28,11 @@ pub struct BendPack {
 #[repr(C, align(64))]
 pub struct BendTargets {
     /// Rest altitude over rest median of each wing, in 0..=1.
-    pub skews: [Lane<f32>; 2],
+    pub skews: [PerLane<f32>; 2],
     /// Angle at which each constraint began, in radians.
-    pub starts: Lane<f32>,
+    pub starts: PerLane<f32>,
     /// Target angle phi0 now, in radians.
-    pub targets: Lane<f32>,
+    pub targets: PerLane<f32>,
 }
 
 /// Length constraints as the sweeps read them.
@@ -40,9 +40,9 @@ pub struct BendTargets {
 #[repr(C, align(64))]
 pub struct LengthPack {
     /// The two ends.
-    pub points: [Lane<PointOffset>; 2],
+    pub points: [PerLane<PointOffset>; 2],
     /// Rest length.
-    pub rest: Lane<f32>,
+    pub rest: PerLane<f32>,
 }
 
 impl BendPack {
