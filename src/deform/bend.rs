@@ -18,7 +18,8 @@ use bevy_math::{Vec3, ops};
 use super::length::length;
 use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
-/// Normals whose sum is shorter than this leave no neutral direction: a fully folded pair.
+/// Least length of the sum of two unit normals. A shorter one is that of a fully folded pair, which has no neutral
+/// direction.
 const MIN_NEUTRAL: f32 = 1e-6;
 
 /// Bend constraint: the two faces of a bound edge close to a target angle (VC 4.3, appendix).
@@ -94,9 +95,9 @@ impl BendConstraint {
         }
     }
 
-    /// Returns the corrections of the four points at `p` with inverse masses `w` (0 fixed, 1 free), or `None` where nothing
-    /// can be done: a face without area, a fully folded pair, a tip that already lies where no direction is left, or all
-    /// points fixed.
+    /// Returns the corrections of the four points at `p` with inverse masses `w` (0 fixed, 1 free), or `None` where
+    /// nothing can be done: a face without area, a fully folded pair, a tip that already lies where no direction is
+    /// left, or all points fixed.
     #[inline]
     pub fn corrections(&self, p: [Vec3; 4], w: [f32; 4]) -> Option<[Vec3; 4]> {
         bend_corrections(p, w, self.reach, self.rest_medians)

@@ -7,8 +7,8 @@ const NONE: u32 = u32::MAX;
 /// Stands for a constraint that nothing moves, in place of its lane.
 const PARKED: u32 = u32::MAX - 1;
 
-/// Constraints of one kind, by the half-edge that carries them. Those that anything can move lie in a lane of the packed
-/// solver; the others are parked.
+/// Constraints of one kind, by the half-edge that carries them. Those that anything can move lie in a lane of the
+/// packed solver; the others are parked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Carriers {
     /// Lane of the constraint that each half-edge carries, or [`NONE`], or [`PARKED`].
@@ -77,7 +77,7 @@ impl Carriers {
     }
 }
 
-/// The constraints that a film has. Nothing is kept of one but its lane and, for a bend, its angles: all else follows
+/// Constraints that a film has. Nothing is kept of one but its lane and, for a bend, its angles: all else follows
 /// from the film.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ledger {

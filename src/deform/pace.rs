@@ -24,15 +24,16 @@ const LEAST_SWEEPS: f32 = 1000.0;
     type_path = "bevy_coating::deform"
 )]
 pub enum SolverQuality {
-    /// Solves one constraint after the other with the printed forms and leaves nothing out: a reference to compare with.
+    /// Solves one constraint after the other with the printed forms and leaves nothing out: a reference to compare
+    /// with.
     Reference,
     /// Solves packs of constraints, in every sweep that is asked for.
     High,
     /// Solves packs of constraints in a fifth of the sweeps; momentum makes up for the others.
     #[default]
     Default,
-    /// Solves packs of constraints in a tenth of the sweeps; momentum makes up for the others. Flakes lift a few percent
-    /// more or less.
+    /// Solves packs of constraints in a tenth of the sweeps; momentum makes up for the others. Flakes lift a few
+    /// percent more or less.
     Fast,
 }
 

@@ -1,9 +1,9 @@
 //! Sleep: vertices that would move too little to be seen are left out of the solve.
 //!
-//! Who sleeps is decided once a tick. A vertex is quiet in a tick in which it moved less than [`QUIET`] of a mean edge, so
-//! that what a sleeping vertex misses in a whole unit of age is too little to be seen. It falls asleep once it and all
-//! vertices that share a constraint with it have been quiet for [`TICKS`] ticks and no target there narrows any more. It
-//! wakes when one of these vertices moves more than that, or anything fractures beside it.
+//! Who sleeps is decided once a tick. A vertex is quiet in a tick in which it moved less than [`QUIET`] of a mean edge,
+//! so that what a sleeping vertex misses in a whole unit of age is too little to be seen. It falls asleep once it and
+//! all vertices that share a constraint with it have been quiet for [`TICKS`] ticks and no target there narrows any
+//! more. It wakes when one of these vertices moves more than that, or anything fractures beside it.
 //!
 //! A loose piece sleeps as a whole or not at all: a part of it held fast would push the rest about without end.
 
@@ -23,7 +23,7 @@ const QUIET: f32 = 1e-4;
 /// Number of ticks that a vertex must have been quiet.
 const TICKS: u8 = 2;
 
-/// Where vertices were at the last tick, and for how many ticks they have been quiet.
+/// Marks of sleep: where each vertex was at the last tick, and for how many ticks it has been quiet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SleepMarks {
     positions: Vec<Vec3>,
@@ -72,8 +72,8 @@ impl SleepMarks {
         packed.unpark_around(ledger, mesh, v);
     }
 
-    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit` is
-    /// how far targets narrow, in radians.
+    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit`
+    /// is how far targets narrow, in radians.
     pub fn tick(
         &mut self,
         packed: &mut PackedConstraints,
@@ -94,8 +94,8 @@ impl SleepMarks {
         packed.compact(ledger, &mesh.topology);
     }
 
-    /// Notes how far the vertices that are awake have moved since the last tick, and finds those asleep beside them that
-    /// are to be woken.
+    /// Notes how far the vertices that are awake have moved since the last tick, and finds those asleep beside them
+    /// that are to be woken.
     fn find_disturbed(&mut self, points: &Points, mesh: &FilmMesh, loose: &LoosePieces) {
         let least = QUIET * mesh.geometry.mean_edge;
         self.disturbed.clear();

@@ -29,11 +29,11 @@ pub struct BendScratch {
     before: Vec<Vec3>,
 }
 
-/// Bends the film for one step: targets narrow, then bends and lengths are solved in sweeps (VC 4), then loose pieces are
-/// put back in their place.
+/// Bends the film for one step: targets narrow, then bends and lengths are solved in sweeps (VC 4), then loose pieces
+/// are put back in their place.
 ///
-/// Writes the positions of `mesh`, and sets [`FilmChanges::moved`] if any may have moved. Where no vertex is awake nothing
-/// is done. A change of `settings` or quality wakes every vertex that sleeps.
+/// Writes the positions of `mesh`, and sets [`FilmChanges::moved`] if any may have moved. Where no vertex is awake
+/// nothing is done. A change of `settings` or quality wakes every vertex that sleeps.
 ///
 /// ```
 /// use bevy_coating::{

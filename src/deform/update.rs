@@ -30,7 +30,7 @@ use crate::film::{FaceId, FilmChanges, FilmMesh, TearEnd, VertexId};
 /// // The diagonal tears. The film has been told first, then the constraints.
 /// changes.clear();
 /// let diagonal = mesh.topology.all_edges().find(|&h| mesh.topology.bound_twin(h).is_some()).unwrap();
-/// let ends = mesh.tear(diagonal, Vec3::NEG_Y)?;
+/// let ends = mesh.tear(diagonal, Vec3::NEG_Y).unwrap();
 /// changes.torn.push(diagonal);
 /// changes.torn_ends.push(ends);
 /// for end in ends {
@@ -41,7 +41,7 @@ use crate::film::{FaceId, FilmChanges, FilmMesh, TearEnd, VertexId};
 /// update_constraints(&mesh, &mut constraints, &changes);
 /// // Two triangles with three edges each.
 /// assert_eq!((constraints.length_count(), constraints.bend_count()), (6, 0));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 pub fn update_constraints(mesh: &FilmMesh, constraints: &mut FilmConstraints, changes: &FilmChanges) {
     if !changes.fractured() {

@@ -22,8 +22,8 @@ impl FilmConstraints {
         self.plain.follow(mesh, &self.ledger, &self.packed);
     }
 
-    /// Sweeps once with the plain solver, which [`follow_plainly`](Self::follow_plainly) has brought up to date. The packed
-    /// solver does not learn of it.
+    /// Sweeps once with the plain solver, which [`follow_plainly`](Self::follow_plainly) has brought up to date. The
+    /// packed solver does not learn of it.
     pub fn sweep_plainly(&self, geometry: &mut Geometry) {
         self.plain.sweep(geometry);
     }

@@ -1,8 +1,8 @@
 //! The constraints of a film, and their upkeep.
 //!
-//! Fracture decides which constraints there are (see [`update_constraints`](super::update_constraints)). They are kept in
-//! a ledger by the half-edge that carries them. Those that anything can move lie in the packs of the packed solver, the
-//! others are parked.
+//! Fracture decides which constraints there are (see [`update_constraints`](super::update_constraints)). They are kept
+//! in a ledger by the half-edge that carries them. Those that anything can move lie in the packs of the packed solver,
+//! the others are parked.
 
 #[cfg(feature = "bench")]
 mod bench;
@@ -26,11 +26,11 @@ use crate::{
     settings::DeformSettings,
 };
 
-/// Constraints of a film, and the solvers' state.
+/// Constraints of a film, and the state of the solvers.
 ///
-/// A bound edge has at most one length and one bend constraint, carried by its lower half-edge; a torn edge has one length
-/// constraint for each half-edge whose face is live. A vertex is attached, awake or asleep: sleep leaves out what moves
-/// too little to be seen.
+/// A bound edge has at most one length and one bend constraint, carried by its lower half-edge; a torn edge has one
+/// length constraint for each half-edge whose face is live. A vertex is attached, awake or asleep: sleep leaves out
+/// what moves too little to be seen.
 ///
 /// The order in which constraints are solved follows from the order of fracture alone. It decides later bits, so it is
 /// part of the film's state: a film that is cloned goes on with the same bits.
@@ -239,8 +239,8 @@ impl FilmConstraints {
         self.packed.solve(&mut mesh.geometry, level, sweeps, momentum);
     }
 
-    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit` is
-    /// how far targets narrow, in radians.
+    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit`
+    /// is how far targets narrow, in radians.
     pub(super) fn tick(&mut self, mesh: &FilmMesh, loose: &LoosePieces, limit: f32) {
         self.sleep.tick(&mut self.packed, &mut self.ledger, mesh, loose, limit);
     }
@@ -256,8 +256,8 @@ impl FilmConstraints {
     }
 }
 
-/// Returns the dihedral angle now, in radians, of the bound edge that `h` carries. A face folded to nothing has none; its rest angle is what it
-/// comes from, and it is also that of a pair that has not moved.
+/// Returns the dihedral angle now, in radians, of the bound edge that `h` carries. A face folded to nothing has none;
+/// its rest angle is what it comes from, and it is also that of a pair that has not moved.
 fn angle_now(mesh: &FilmMesh, h: HalfEdgeId) -> f32 {
     let (topology, geometry) = (&mesh.topology, &mesh.geometry);
     let rest = geometry.rest_dihedrals[h.index()];

@@ -15,7 +15,7 @@ use crate::{
     film::{FilmMesh, Geometry, HalfEdgeId, Topology, VertexId},
 };
 
-/// The constraints of a film as the packed solver sees them. Which there are, and in which lane each lies, is in the
+/// Constraints of a film as the packed solver sees them. Which there are, and in which lane each lies, is in the
 /// film's [`Ledger`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackedConstraints {
@@ -273,7 +273,7 @@ impl PackedConstraints {
         self.outdated
     }
 
-    /// Notes that the film has moved without the points.
+    /// Notes that the plain solver has moved the film without the points.
     pub fn mark_outdated(&mut self) {
         self.outdated = true;
     }

@@ -9,7 +9,7 @@ use super::{
     point::{Point, PointOffset},
 };
 
-/// Three components.
+/// Vector of three components, each a vector of lanes.
 #[derive(Clone, Copy)]
 struct Vec3<L>(L, L, L);
 
@@ -67,7 +67,8 @@ fn offsets_at(offsets: &PerLane<PointOffset>, at: usize) -> *const PointOffset {
     offsets.as_ptr().wrapping_add(at)
 }
 
-/// Below this, the square of the sum of the unit normals leaves no neutral direction: a fully folded pair.
+/// Least square of the length of the sum of two unit normals. A smaller one is that of a fully folded pair, which has
+/// no neutral direction.
 const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
 
 /// Number of packs that are read forward, as memory is read best, before the run in front of them.
@@ -148,8 +149,8 @@ struct Pair<L: Lanes> {
 }
 
 impl<L: Lanes> Pair<L> {
-    /// Returns `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be inlined, and then
-    /// every instruction would be a call.)
+    /// Returns `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be
+    /// inlined, and then every instruction would be a call.)
     #[inline(always)]
     unsafe fn wing(self, a: Vec3<L>, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
         unsafe {
@@ -272,8 +273,8 @@ pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTarg
     ends.iter().any(|&left| left > 0.0)
 }
 
-/// Returns `cos(angle / 2)` for angles in -2 pi to 2 pi, to a few units of the last place of 1: `1 - 2 sin^2(angle / 4)` with
-/// the sine's series up to the 11th power.
+/// Returns `cos(angle / 2)` for angles in -2 pi to 2 pi, to a few units of the last place of 1:
+/// `1 - 2 sin^2(angle / 4)` with the sine's series up to the 11th power.
 #[inline(always)]
 unsafe fn cosine_of_half<L: Lanes>(angle: L) -> L {
     unsafe {

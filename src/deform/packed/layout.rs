@@ -2,8 +2,8 @@
 
 use bevy_math::Vec3;
 
-/// Largest number of vertices of a region: 128 kB of points, an eighth of a common second-level cache. Smaller regions would leave
-/// more lanes of packs empty.
+/// Largest number of vertices of a region: 128 kB of points, an eighth of a common second-level cache. Smaller regions
+/// would leave more lanes of packs empty.
 const REGION: usize = 8192;
 /// Largest number of vertices of a part that is not halved any further: a kilobyte of points.
 const PART: usize = 64;

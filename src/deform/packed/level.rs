@@ -73,7 +73,7 @@ impl Default for SimdLevel {
     }
 }
 
-/// The kernels of one level.
+/// Kernels of one level.
 ///
 /// # Safety
 /// To be called only where the level is available, with indices within the points.
@@ -103,7 +103,13 @@ macro_rules! kernels_with {
             unsafe { kernels::project::<$Lanes>(points, planes, offsets) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, offsets: &[PointOffset], keep: f32) {
+        unsafe fn advance(
+            points: *mut Point,
+            before: *mut Point,
+            planes: *const Point,
+            offsets: &[PointOffset],
+            keep: f32,
+        ) {
             unsafe { kernels::advance::<$Lanes>(points, before, planes, offsets, keep) }
         }
         $(#[target_feature(enable = $feature)])?

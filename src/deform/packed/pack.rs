@@ -1,14 +1,14 @@
 //! Packs: constraints that share no point, side by side, to be solved at once.
 //!
-//! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused lanes
-//! refer to the null point, which nothing moves.
+//! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused
+//! lanes refer to the null point, which nothing moves.
 
 use super::point::PointOffset;
 
-/// Constraints in a pack.
+/// Number of constraints in a pack.
 pub const LANES: usize = 32;
 
-/// One value a lane.
+/// Array of one value for each lane of a pack.
 pub type PerLane<T> = [T; LANES];
 
 /// Bend constraints as the sweeps read them.
@@ -17,13 +17,13 @@ pub type PerLane<T> = [T; LANES];
 pub struct BendPack {
     /// Ends of the edge and tips of the two wings: p1, p2, p3, p4.
     pub points: [PerLane<PointOffset>; 4],
-    /// `skew cos(phi0 / 2)` of each wing: the cosine at which it rests.
+    /// Cosine at which each wing rests: `skew cos(phi0 / 2)`.
     pub folds: [PerLane<f32>; 2],
     /// Square of each wing's median at rest.
     pub medians: [PerLane<f32>; 2],
 }
 
-/// What the folds of a [`BendPack`] are made of.
+/// Angles and shapes that the folds of a [`BendPack`] are made of.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct BendTargets {
@@ -39,24 +39,24 @@ pub struct BendTargets {
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct LengthPack {
-    /// The two ends.
+    /// Two ends of the edge.
     pub points: [PerLane<PointOffset>; 2],
     /// Rest length.
     pub rest: PerLane<f32>,
 }
 
 impl BendPack {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self =
         Self { points: [[PointOffset::NULL; LANES]; 4], folds: [[0.0; LANES]; 2], medians: [[0.0; LANES]; 2] };
 }
 
 impl BendTargets {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self = Self { skews: [[0.0; LANES]; 2], starts: [0.0; LANES], targets: [0.0; LANES] };
 }
 
 impl LengthPack {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self = Self { points: [[PointOffset::NULL; LANES]; 2], rest: [0.0; LANES] };
 }

@@ -19,8 +19,8 @@ impl PointOffset {
         Self(index as u32 * 16)
     }
 
-    /// Returns the point at this offset. Wrapping, as the check that others make in debug builds would cost more than the
-    /// rest; within the points it is the same.
+    /// Returns the point at this offset. Wrapping, as the check that others make in debug builds would cost more than
+    /// the rest; within the points it is the same.
     #[inline(always)]
     pub fn of(self, points: *const Point) -> *const Point {
         points.wrapping_byte_add(self.0 as usize)

@@ -10,25 +10,25 @@ use super::{
 
 /// Stands where there is no vertex.
 const NO_VERTEX: u32 = u32::MAX;
-/// A region has room for one duplicate in so many vertices. More of them lie behind all regions.
+/// Number of vertices of a region for each duplicate that it has room for. More of them lie behind all regions.
 const ROOM: usize = 4;
 /// Widest group of points that a kernel takes.
 const GROUP: usize = 32;
 
-/// What a vertex does in the solver.
+/// Motion of a vertex: what the solver does with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// It holds on to the metal.
+    /// Held by the metal.
     Attached,
-    /// It is free, but moves too little to be looked at: others see it as fixed.
+    /// Free, but left out as it moves too little to be seen: others see it as fixed.
     Asleep,
-    /// It moves.
+    /// Free, and moving.
     Awake,
-    /// None of its faces are left.
+    /// Without faces, as they are all removed.
     Gone,
 }
 
-/// The points of a film. Point 0 is the null point that unused lanes refer to; the others lie region by region, with
+/// Points of a film. Point 0 is the null point that unused lanes refer to; the others lie region by region, with
 /// room for duplicates.
 ///
 /// Positions are in units of a power of two near the film's mean edge: products of many lengths then neither overflow
@@ -43,9 +43,9 @@ pub struct Points {
     /// Room that is left in each region: points from the first to before the second.
     room: Vec<[u32; 2]>,
     now: Vec<Point>,
-    /// Where each point was before the last sweep: what its momentum comes from.
+    /// Place of each point before the last sweep, from which its momentum comes.
     before: Vec<Point>,
-    /// Plane at rest: nothing goes below (VC 5).
+    /// Plane of each point at rest, below which it does not go (VC 5).
     planes: Vec<Point>,
     motions: Vec<Motion>,
     /// Region of each vertex.
@@ -56,10 +56,11 @@ pub struct Points {
     asleep: usize,
 }
 
-/// The awake points of a region.
+/// Awake points of a region.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Awake {
-    /// Padded with the null point to whole groups. In the order of memory, but for those that woke since the last tick.
+    /// Offsets, padded with the null point to whole groups. In the order of memory, but for those that woke since the
+    /// last tick.
     offsets: Vec<PointOffset>,
     count: usize,
     sorted: bool,

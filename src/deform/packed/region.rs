@@ -8,7 +8,7 @@ use super::{
     slots::{Blocked, Slots},
 };
 
-/// A bend constraint, as a lane holds it. Lengths are in the points' unit.
+/// Bend constraint, as a lane holds it. Lengths are in the points' unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendLane {
     /// Vertices p1, p2, p3, p4.
@@ -23,7 +23,7 @@ pub struct BendLane {
     pub target: f32,
 }
 
-/// A length constraint, as a lane holds it. Lengths are in the points' unit.
+/// Length constraint, as a lane holds it. Lengths are in the points' unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthLane {
     /// The two vertices.
@@ -204,8 +204,8 @@ impl Region {
         sparse(&self.length_slots)
     }
 
-    /// Removes a pack of bends. Puts what it held and the owners into `taken`, and calls `moved` with the owner and the new
-    /// lane of each bend of the pack that takes its number.
+    /// Removes a pack of bends. Puts what it held and the owners into `taken`, and calls `moved` with the owner and the
+    /// new lane of each bend of the pack that takes its number.
     pub fn dissolve_bends(
         &mut self,
         pack: usize,
@@ -256,7 +256,8 @@ impl Region {
     }
 }
 
-/// Returns the pack to be given up, if any: packs are given up one at a time while fewer than five of eight lanes are used.
+/// Returns the pack to be given up, if any: packs are given up one at a time while fewer than five of eight lanes are
+/// used.
 fn sparse(slots: &Slots) -> Option<usize> {
     let packs = slots.packs();
     let dense = slots.live() * 8 >= packs * LANES * 5;

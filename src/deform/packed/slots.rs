@@ -2,8 +2,8 @@
 
 use super::pack::{LANES, PerLane};
 
-/// Number of packs that are tried for a constraint before a new one is begun. A constraint has some thirty neighbours, each of
-/// which blocks one pack at most, so this rarely fails while there is room.
+/// Number of packs that are tried for a constraint before a new one is begun. A constraint has some thirty neighbours,
+/// each of which blocks one pack at most, so this rarely fails while there is room.
 const TRIES: usize = 64;
 
 /// Packs that hold a constraint which shares a point with the one to be placed.
@@ -46,9 +46,9 @@ impl Blocked {
 pub struct Slots {
     /// Owner of each lane, where it is used.
     owners: Vec<PerLane<u32>>,
-    /// One bit a lane: whether it is used.
+    /// Whether each lane is used: one bit a lane, one word a pack.
     used: Vec<u32>,
-    /// One bit a pack: whether it has room.
+    /// Whether each pack has room: one bit a pack.
     open: Vec<u64>,
     /// Number of used lanes.
     live: usize,
@@ -65,8 +65,8 @@ impl Slots {
         self.live
     }
 
-    /// Gives `owner` a lane in the first pack with room that is not blocked. Returns the lane, and whether a pack was begun
-    /// for it.
+    /// Gives `owner` a lane in the first pack with room that is not blocked. Returns the lane, and whether a pack was
+    /// begun for it.
     pub fn claim(&mut self, owner: u32, blocked: &Blocked) -> (u32, bool) {
         let found = self.open_packs().take(TRIES).find(|&pack| !blocked.is_blocked(pack));
         let pack = found.unwrap_or_else(|| {

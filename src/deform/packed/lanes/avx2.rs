@@ -99,7 +99,7 @@ impl Lanes for Avx2 {
     }
 }
 
-/// Points 0 and 4 from `offsets` on, so that lanes end up in the order of the offsets.
+/// Reads points 0 and 4 from `offsets` on, so that lanes end up in the order of the offsets.
 #[inline(always)]
 unsafe fn row(points: *const Point, offsets: *const PointOffset) -> __m256 {
     unsafe {
@@ -117,13 +117,13 @@ unsafe fn put_row(points: *mut Point, offsets: *const PointOffset, row: __m256) 
     }
 }
 
-/// The lower two floats of each 128 bits of `a`, then those of `b`.
+/// Returns the lower two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn low(a: __m256, b: __m256) -> __m256 {
     unsafe { _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }
 }
 
-/// The upper two.
+/// Returns the upper two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn high(a: __m256, b: __m256) -> __m256 {
     unsafe { _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }

@@ -98,7 +98,7 @@ impl Lanes for Avx512 {
     }
 }
 
-/// Points 0, 4, 8 and 12 from `offsets` on, so that lanes end up in the order of the offsets.
+/// Reads points 0, 4, 8 and 12 from `offsets` on, so that lanes end up in the order of the offsets.
 #[inline(always)]
 unsafe fn row(points: *const Point, offsets: *const PointOffset) -> __m512 {
     unsafe {
@@ -120,13 +120,13 @@ unsafe fn put_row(points: *mut Point, offsets: *const PointOffset, row: __m512) 
     }
 }
 
-/// The lower two floats of each 128 bits of `a`, then those of `b`.
+/// Returns the lower two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn low(a: __m512, b: __m512) -> __m512 {
     unsafe { _mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b))) }
 }
 
-/// The upper two.
+/// Returns the upper two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn high(a: __m512, b: __m512) -> __m512 {
     unsafe { _mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(a), _mm512_castps_pd(b))) }

@@ -105,13 +105,13 @@ unsafe fn transpose([a, b, c, d]: [float32x4_t; 4]) -> [float32x4_t; 4] {
     }
 }
 
-/// The lower two floats of `a`, then those of `b`.
+/// Returns the lower two floats of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn low(a: float32x4_t, b: float32x4_t) -> float32x4_t {
     unsafe { vreinterpretq_f32_f64(vtrn1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }
 }
 
-/// The upper two.
+/// Returns the upper two floats of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn high(a: float32x4_t, b: float32x4_t) -> float32x4_t {
     unsafe { vreinterpretq_f32_f64(vtrn2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }

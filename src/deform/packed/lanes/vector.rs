@@ -2,7 +2,7 @@
 
 use crate::deform::packed::point::{Point, PointOffset};
 
-/// As many floats as fit a register.
+/// Vector of as many floats as fit a register.
 ///
 /// # Safety
 /// All functions may only be called where the CPU has the instruction set of the type. Pointers must be valid for
@@ -11,7 +11,7 @@ pub trait Lanes: Copy {
     /// Number of floats.
     const WIDTH: usize;
 
-    /// One truth value a lane.
+    /// Mask with one truth value a lane.
     type Mask: Copy;
 
     /// Returns `x` in all lanes.
