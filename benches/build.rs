@@ -1,4 +1,4 @@
-//! What it takes to coat a prop, before its first step.
+//! The cost of coating a prop, before its first step.
 //!
 //! `remesh` and `keep` are the two ways from a surface to a film, on a torus of twice as many triangles as the film is
 //! to have (`remesh`), or of as many (`keep`). `half_edges` makes the film mesh of the plate, `fresh_film` all that a
@@ -26,7 +26,7 @@ fn main() {
     divan::main();
 }
 
-/// A torus of about so many triangles, radii 1 and 0.4.
+/// Makes a torus of about so many triangles, with radii 1 and 0.4.
 fn torus(triangles: u32) -> Surface {
     let across = (triangles as f32 / 5.0).sqrt().round() as u32;
     let along = (triangles as f32 / (2 * across) as f32).round() as u32;

@@ -1,4 +1,4 @@
-//! The innermost loops: what one projection of a constraint costs, on a plate that has separated altogether.
+//! The innermost loops: the cost of projecting a constraint once, on a plate that has separated altogether.
 //!
 //! Compared are the packed solver on every instruction set that this CPU has, and the plain solver, which takes one
 //! constraint after the other with the printed forms. `lengths` and `bends` are one sweep over all constraints of a
@@ -17,7 +17,7 @@ mod common;
 use std::fmt;
 
 use bevy_coating::{
-    deform::{BendScratch, FilmConstraints, SimdLevel, SolvePace, SolverQuality, bend_film, plain::PlainConstraints},
+    deform::{BendScratch, FilmConstraints, SimdLevel, SolvePace, SolverQuality, bend_film},
     film::{FilmChanges, FilmMesh, LoosePieces},
     settings::DeformSettings,
 };
@@ -82,19 +82,17 @@ fn packed(bencher: Bencher, case: &Case) {
 
 #[divan::bench(args = SIZES)]
 fn plain(bencher: Bencher, triangles: u32) {
-    let (mut mesh, constraints) = bending(triangles);
-    let mut plain = PlainConstraints::default();
-    plain.follow(&mesh, &constraints);
+    let (mut mesh, mut constraints) = bending(triangles);
+    constraints.follow_plainly(&mesh);
     let count = constraints.length_count() + constraints.bend_count();
-    bencher.counter(ItemsCount::new(count)).bench_local(|| plain.sweep(&mut mesh.geometry));
+    bencher.counter(ItemsCount::new(count)).bench_local(|| constraints.sweep_plainly(&mut mesh.geometry));
 }
 
-/// What the plain solver pays once a step to learn of new targets.
+/// Cost of new targets to the plain solver, once a step.
 #[divan::bench(args = SIZES)]
 fn plain_follow(bencher: Bencher, triangles: u32) {
-    let (mesh, constraints) = bending(triangles);
-    let mut plain = PlainConstraints::default();
-    plain.follow(&mesh, &constraints);
+    let (mesh, mut constraints) = bending(triangles);
+    constraints.follow_plainly(&mesh);
     let count = constraints.length_count() + constraints.bend_count();
-    bencher.counter(ItemsCount::new(count)).bench_local(|| plain.follow(&mesh, &constraints));
+    bencher.counter(ItemsCount::new(count)).bench_local(|| constraints.follow_plainly(&mesh));
 }

@@ -1,10 +1,10 @@
 //! Whole frames of an app with coated props, without a GPU.
 //!
 //! Compared are frames with 1, 10, 100 and 500 props of 3,042 triangles each: `settled`, in which the clock stands
-//! still and which must cost next to nothing, `ageing`, in which every film takes a step and is shown anew, and `bare`,
-//! the same props in an app without the plugin. The props are half way to age 1, so about half of their paint is off.
-//! An item is a prop. The engine is not optimised in this profile, so its part of a frame is dearer than in a game:
-//! compare frames with each other.
+//! still and which must cost next to nothing, `ageing`, in which every film takes a step and is shown again, and
+//! `bare`, the same props in an app without the plugin. The props are half way to age 1, so about half of their paint
+//! is off. An item is a prop. The engine is not optimised in this profile, so its part of a frame is dearer than in a
+//! game: compare frames with each other.
 //!
 //! Run with `cargo bench --profile dev --bench plugin`.
 
@@ -26,7 +26,7 @@ fn main() {
     divan::main();
 }
 
-/// An app with so many aged props whose clock stands still.
+/// Makes an app with so many aged props whose clock stands still.
 fn coated(props: usize) -> App {
     let mut app = common::app();
     let mesh = common::add_mesh(&mut app, common::plate(SQUARES));

@@ -1,4 +1,4 @@
-//! What it takes to bring what is shown up to date with the film, each frame in which it took a step.
+//! The cost of bringing the appearance up to date with its film, in each frame in which it took a step.
 //!
 //! All of the plate has separated, so that every face has a back and metal under it. In `moving` every vertex has moved
 //! since the last time, as when a whole film bends; in `still` nothing has (the plugin does not ask then); `stained`
@@ -23,7 +23,7 @@ fn main() {
     divan::main();
 }
 
-/// The film of a plate that has come off the metal.
+/// Makes the film of a plate that has come off the metal.
 fn separated(piece: &TestPiece) -> FilmState {
     let mut film = FilmState::new(&piece.film, &CoatingSettings::default(), 1, 1000).expect("a manifold");
     film.forces.separated_age.fill(0.0);
@@ -35,7 +35,7 @@ fn shown(piece: &TestPiece, film: &FilmState) -> FilmAppearance {
     FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains)
 }
 
-/// Updates what is shown after each `change` of the film.
+/// Updates the appearance after each `change` of the film.
 fn update(bencher: Bencher, triangles: u32, changes: DisplayChanges, change: impl Fn(&mut FilmState, f32)) {
     let piece = common::plate(triangles);
     let mut film = separated(&piece);

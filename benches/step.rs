@@ -1,4 +1,4 @@
-//! A solve of four sweeps, and whole runs: what bending costs a step, and a film its life.
+//! A solve of four sweeps, and whole runs: the cost of bending a film for a step, and of ageing it from 0 to 1.
 //!
 //! `best` is the packed solver on the best instruction set that this CPU has, `scalar` the same packs one float at a
 //! time, `reference` one constraint after the other with the printed forms. Each solves plates of which a share is off
@@ -32,7 +32,7 @@ fn main() {
     divan::main();
 }
 
-/// A plate and how much of it is off the metal.
+/// A plate, and the share of it that is off the metal.
 struct Case {
     triangles: u32,
     percent: u32,

@@ -12,7 +12,7 @@ use bevy_coating::{
     remesh::sample::{self, TestPiece},
 };
 
-/// The flat test piece of so many triangles, side 1.
+/// Returns the flat test piece of so many triangles, with sides of 1.
 pub fn plate(triangles: u32) -> Arc<TestPiece> {
     static PLATES: Mutex<BTreeMap<u32, Arc<TestPiece>>> = Mutex::new(BTreeMap::new());
     let mut plates = PLATES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -20,19 +20,19 @@ pub fn plate(triangles: u32) -> Arc<TestPiece> {
     plates.entry(triangles).or_insert_with(make).clone()
 }
 
-/// The film of that plate, at rest.
+/// Makes the film of that plate, at rest.
 pub fn film(triangles: u32) -> FilmMesh {
     let film = &plate(triangles).film;
     FilmMesh::new(film.positions.clone(), &film.triangles).expect("a manifold")
 }
 
-/// The first vertices of a plate from the left: those on so large a share of its area.
+/// Returns the vertices on so large a share of a plate, from the left.
 pub fn left_share(mesh: &FilmMesh, share: f32) -> impl Iterator<Item = VertexId> + '_ {
     let right = move |v: &VertexId| mesh.geometry.rest_positions[v.index()].x < share - 0.5;
     mesh.topology.all_vertices().filter(move |v| share >= 1.0 || (share > 0.0 && right(v)))
 }
 
-/// The film of a plate and its constraints, after that share of it has separated from the metal.
+/// Makes the film of a plate and its constraints, after that share of it has separated from the metal.
 pub fn separated(triangles: u32, share: f32) -> (FilmMesh, FilmConstraints) {
     let mesh = film(triangles);
     let mut constraints = FilmConstraints::new(&mesh);

@@ -16,38 +16,66 @@
 use bevy_math::{Vec3, ops};
 
 use super::length::length;
-use crate::film::HalfEdgeId;
+use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
-/// Normals whose sum is shorter than this leave no neutral direction: a fully folded pair.
+/// Least length of the sum of two unit normals. A shorter one is that of a fully folded pair, which has no neutral
+/// direction.
 const MIN_NEUTRAL: f32 = 1e-6;
 
-/// Closes the two faces of a bound edge to the target angle.
+/// Bend constraint: the two faces of a bound edge close to a target angle (VC 4.3, appendix).
+///
+/// Angles are dihedral, in 0..2 pi: pi is flat, less a valley, more a mountain, seen from outside.
+///
+/// ```
+/// use std::f32::consts::PI;
+///
+/// use bevy_coating::{deform::BendConstraint, film::HalfEdgeId};
+/// use bevy_math::Vec3;
+///
+/// // An edge along y, its own face to the left and its twin's to the right: flat, and seen from +z.
+/// let points = [Vec3::ZERO, Vec3::Y, Vec3::new(-1.0, 0.5, 0.0), Vec3::new(1.0, 0.5, 0.0)];
+/// let mut bend = BendConstraint::new(HalfEdgeId(0), [0, 1, 2, 3], points, PI);
+/// bend.narrow(0.1, 0.35);
+/// assert_eq!(bend.target, PI - 0.1);
+///
+/// // Both wings rise and the edge sinks.
+/// let corrections = bend.corrections(points, [1.0; 4]).unwrap();
+/// assert!(corrections[0].z < 0.0 && corrections[2].z > 0.0 && corrections[3].z > 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendConstraint {
-    /// The lower half-edge of the edge.
+    /// Half-edge that carries the constraint: the lower one of the edge.
     pub half_edge: HalfEdgeId,
-    /// Ends of the edge, tip of the half-edge's own face, tip of its twin's face: p1, p2, p3, p4.
+    /// Indices of the four vertices: ends of the edge, tip of the half-edge's own face, tip of its twin's face (p1, p2,
+    /// p3, p4).
     pub points: [u32; 4],
     /// Rest altitude over rest median of each wing, in 0..=1.
     pub skew: [f32; 2],
-    /// Rest length of each wing's median.
+    /// Rest length of each wing's median, in the film's unit.
     pub rest_medians: [f32; 2],
     /// Angle at which the constraint began, in radians.
     pub start: f32,
     /// Target angle phi0 now, in radians.
     pub target: f32,
-    /// `sqrt(2 (1 + skew cos(phi0 / 2)))` of each wing: four times d over the median.
+    /// Four times the distance d of the appendix over the median, of each wing: `sqrt(2 (1 + skew cos(phi0 / 2)))`.
     pub reach: [f32; 2],
 }
 
 impl BendConstraint {
-    /// A constraint on points whose rest positions are `rest`, with its target at `angle`.
+    /// Makes a constraint on the vertices `points`, whose rest positions are `rest`. It begins at `angle`, in radians,
+    /// which is also its first target.
     pub fn new(half_edge: HalfEdgeId, points: [u32; 4], rest: [Vec3; 4], angle: f32) -> Self {
         let (skew, rest_medians) = shape_at_rest(rest);
         let mut constraint =
             Self { half_edge, points, skew, rest_medians, start: angle, target: angle, reach: [0.0; 2] };
         constraint.set_target(angle);
         constraint
+    }
+
+    /// Returns the constraint of the bound edge that `h` carries, which began at `start` (radians).
+    pub(super) fn of_edge(mesh: &FilmMesh, h: HalfEdgeId, start: f32) -> Self {
+        let points = bend_points(&mesh.topology, h);
+        Self::new(h, points, points.map(|v| mesh.geometry.rest_positions[v as usize]), start)
     }
 
     /// Sets the target angle, in radians.
@@ -57,7 +85,7 @@ impl BendConstraint {
         self.reach = self.skew.map(|skew| (2.0 * (1.0 + skew * cosine)).max(0.0).sqrt());
     }
 
-    /// Narrows the target by `step`, down to `limit` below the angle at which the constraint began.
+    /// Narrows the target by `step`, down to `limit` below the angle at which the constraint began; both in radians.
     #[inline]
     pub fn narrow(&mut self, step: f32, limit: f32) {
         let end = self.start - limit;
@@ -67,14 +95,22 @@ impl BendConstraint {
         }
     }
 
-    /// Corrections of the four points at `p` with inverse masses `w`; see [`bend_corrections`].
+    /// Returns the corrections of the four points at `p` with inverse masses `w` (0 fixed, 1 free), or `None` where
+    /// nothing can be done: a face without area, a fully folded pair, a tip that already lies where no direction is
+    /// left, or all points fixed.
     #[inline]
     pub fn corrections(&self, p: [Vec3; 4], w: [f32; 4]) -> Option<[Vec3; 4]> {
         bend_corrections(p, w, self.reach, self.rest_medians)
     }
 }
 
-/// Altitude over median of both wings of a pair at rest, in 0..=1, and the lengths of their medians.
+/// Returns the vertices p1, p2, p3, p4 of the bound edge that `h` carries.
+pub(super) fn bend_points(topology: &Topology, h: HalfEdgeId) -> [u32; 4] {
+    let tip = topology.rest_twin(h).map_or(topology.apex(h), |twin| topology.apex(twin));
+    [topology.origin(h).0, topology.target(h).0, topology.apex(h).0, tip.0]
+}
+
+/// Returns altitude over median of both wings of a pair at rest, in 0..=1, and the lengths of their medians.
 pub(super) fn shape_at_rest([p1, p2, p3, p4]: [Vec3; 4]) -> ([f32; 2], [f32; 2]) {
     let (middle, edge) = ((p1 + p2) * 0.5, p2 - p1);
     let medians = [p3 - middle, p4 - middle];
@@ -87,7 +123,7 @@ pub(super) fn shape_at_rest([p1, p2, p3, p4]: [Vec3; 4]) -> ([f32; 2], [f32; 2])
     ([sine(0), sine(1)], lengths)
 }
 
-/// Corrections of the four points of a bend constraint, with `reach` and `rest_medians` as in
+/// Returns the corrections of the four points of a bend constraint, with `reach` and `rest_medians` as in
 /// [`BendConstraint`]. `None` where nothing can be done: a face without area, a fully folded pair, a tip that
 /// already lies where no direction is left, or all points fixed.
 ///
@@ -98,7 +134,12 @@ pub(super) fn shape_at_rest([p1, p2, p3, p4]: [Vec3; 4]) -> ([f32; 2], [f32; 2])
 /// A stretched wing corrects less, by the square of rest over current median: otherwise corrections grow
 /// with the stretch they cause.
 #[inline]
-pub fn bend_corrections(p: [Vec3; 4], w: [f32; 4], reach: [f32; 2], rest_medians: [f32; 2]) -> Option<[Vec3; 4]> {
+pub(super) fn bend_corrections(
+    p: [Vec3; 4],
+    w: [f32; 4],
+    reach: [f32; 2],
+    rest_medians: [f32; 2],
+) -> Option<[Vec3; 4]> {
     let [p1, p2, p3, p4] = p;
     let [w1, w2, w3, w4] = w;
     let edge = p2 - p1;

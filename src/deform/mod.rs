@@ -4,26 +4,32 @@
 //! separated ones 1. There are two solvers: a plain one, the reference, and a packed one that solves 32 constraints at
 //! once and visits only what moves.
 //!
-//! | part | module | source |
+//! | part | where | source |
 //! |---|---|---|
-//! | constraints and where they come from | [`constraints`] | VC 5, fig. 7 |
-//! | length constraint | [`length`] | VC 4.2 |
-//! | bend constraint | [`bend`] | VC 4.3, appendix, with the misprint of the projection put right |
-//! | the solve of a step | [`solver`] | VC 4.1, 5 |
-//! | one constraint after the other | [`plain`] | VC 4.1 |
-//! | packs, instruction sets, momentum | `packed` | beyond the paper |
-//! | what hardly moves is not looked at | `sleep` | beyond the paper |
-//! | loose pieces keep their place | [`rigid`] | beyond the paper |
+//! | length constraint | `length` | VC 4.2 |
+//! | bend constraint | `bend` | VC 4.3, appendix, with the misprint of the projection put right |
+//! | contact with the metal | `half_space` | VC 5 |
+//! | how much is solved in a step | `pace` | VC 4.1, momentum beyond the paper |
+//! | which half-edge carries which constraint | `ledger` | VC 5, fig. 7 |
+//! | packs, instruction sets | `packed` | beyond the paper |
+//! | one constraint after the other | `plain` | VC 4.1 |
+//! | what hardly moves is left out | `sleep` | beyond the paper |
+//! | loose pieces keep their place | `rigid` | beyond the paper |
+//! | the constraints of a film | [`FilmConstraints`] | VC 5 |
+//! | constraints follow fracture | [`update_constraints`] | VC 5, fig. 7 |
+//! | the solve of a step | [`bend_film`] | VC 4.1, 5 |
 
-pub mod bend;
-pub mod constraints;
-pub mod length;
+mod bend;
+mod constraints;
+mod half_space;
+mod ledger;
+mod length;
+mod pace;
 mod packed;
-pub mod plain;
-mod regions;
-pub mod rigid;
+mod plain;
+mod rigid;
 mod sleep;
-pub mod solver;
+mod solver;
 mod update;
 
 #[cfg(test)]
@@ -32,6 +38,7 @@ mod tests;
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;
 pub use length::LengthConstraint;
-pub use packed::SimdLevel;
-pub use solver::{BendScratch, SolvePace, SolverQuality, bend_film, sweeps_and_momentum, sweeps_of_step};
+pub use pace::{SolvePace, SolverQuality, sweeps_and_momentum, sweeps_of_step};
+pub use packed::level::SimdLevel;
+pub use solver::{BendScratch, bend_film};
 pub use update::update_constraints;

@@ -3,13 +3,19 @@
 
 use bevy_math::Vec3;
 
-use super::{BendConstraint, FilmConstraints, LengthConstraint, bend::bend_corrections, length::length_corrections};
+use super::{
+    bend::{BendConstraint, bend_corrections},
+    half_space::above_plane,
+    ledger::Ledger,
+    length::{LengthConstraint, length_corrections},
+    packed::{constraints::PackedConstraints, points::Motion},
+};
 use crate::film::{FilmMesh, Geometry, Topology};
 
 /// All constraints of a film, sorted by half-edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlainConstraints {
-    /// Revision of the film's constraints that these are of.
+    /// Revision of the ledger that these are of.
     revision: u64,
     lengths: Vec<LengthConstraint>,
     bends: Vec<BendConstraint>,
@@ -18,25 +24,24 @@ pub struct PlainConstraints {
 }
 
 impl PlainConstraints {
-    /// Follows the constraints of a film and their targets.
-    pub fn follow(&mut self, mesh: &FilmMesh, constraints: &FilmConstraints) {
-        if self.revision != constraints.revision || self.inverse_masses.len() != mesh.topology.vertex_count() {
-            self.revision = constraints.revision;
+    /// Brings these up to date with the constraints of a film and their targets.
+    pub fn follow(&mut self, mesh: &FilmMesh, ledger: &Ledger, packed: &PackedConstraints) {
+        if self.revision != ledger.revision() || self.inverse_masses.len() != mesh.topology.vertex_count() {
+            self.revision = ledger.revision();
             self.lengths.clear();
             self.bends.clear();
-            let [lengths, bends] = constraints.carriers();
-            self.lengths.extend(lengths.filter_map(|h| constraints.length_of(mesh, h)));
-            self.bends.extend(bends.filter_map(|h| constraints.bend_of(mesh, h)));
+            self.lengths.extend(ledger.lengths().iter().map(|h| LengthConstraint::of_edge(mesh, h)));
+            self.bends.extend(ledger.bends().iter().filter_map(|h| packed.bend_of(ledger, mesh, h)));
             self.inverse_masses.clear();
-            let mass = |v| if constraints.is_attached(v) { 0.0 } else { 1.0 };
+            let mass = |v| if packed.motion(v) == Motion::Attached { 0.0 } else { 1.0 };
             self.inverse_masses.extend(mesh.topology.all_vertices().map(mass));
         }
-        self.renew_targets(&mesh.topology, constraints);
+        self.renew_targets(&mesh.topology, ledger, packed);
     }
 
-    fn renew_targets(&mut self, topology: &Topology, constraints: &FilmConstraints) {
+    fn renew_targets(&mut self, topology: &Topology, ledger: &Ledger, packed: &PackedConstraints) {
         for bend in &mut self.bends {
-            if let Some(target) = constraints.target(topology, bend.half_edge)
+            if let Some(target) = packed.target(ledger, topology, bend.half_edge)
                 && target != bend.target
             {
                 bend.set_target(target);
@@ -44,7 +49,7 @@ impl PlainConstraints {
         }
     }
 
-    /// One sweep: every bend in turn, then every length.
+    /// Sweeps once: solves every bend in turn, then every length.
     pub fn sweep(&self, geometry: &mut Geometry) {
         let (rest, normals) = (&geometry.rest_positions, &geometry.rest_normals);
         let positions = &mut geometry.positions;
@@ -74,11 +79,4 @@ impl PlainConstraints {
     fn gather<const N: usize>(&self, positions: &[Vec3], points: [u32; N]) -> ([Vec3; N], [f32; N]) {
         (points.map(|v| positions[v as usize]), points.map(|v| self.inverse_masses[v as usize]))
     }
-}
-
-/// Takes out what puts `p` below the plane through its rest position (VC 5): all the contact there is.
-#[inline]
-pub fn above_plane(p: Vec3, rest: Vec3, normal: Vec3) -> Vec3 {
-    let height = (p - rest).dot(normal);
-    if height < 0.0 { p - height * normal } else { p }
 }

@@ -3,21 +3,24 @@
 
 use bevy_math::{Mat3, Quat, Vec3};
 
-use super::{FilmConstraints, plain::above_plane};
+use super::{
+    half_space::above_plane,
+    packed::points::{Motion, Points},
+};
 use crate::film::{Geometry, LoosePiece, LoosePieces};
 
-/// Notes where the vertices of the loose pieces are before a solve. Pieces that sleep are passed over.
-pub fn remember(positions: &[Vec3], loose: &LoosePieces, constraints: &FilmConstraints, before: &mut Vec<Vec3>) {
+/// Notes in `before` where the vertices of the loose pieces are before a solve. Pieces that sleep are passed over.
+pub fn remember(positions: &[Vec3], loose: &LoosePieces, points: &Points, before: &mut Vec<Vec3>) {
     before.clear();
-    let pieces = loose.iter().filter(|piece| is_awake(piece, constraints));
+    let pieces = loose.iter().filter(|piece| is_awake(piece, points));
     before.extend(pieces.flat_map(|piece| piece.vertices).map(|v| positions[v.index()]));
 }
 
 /// Takes each loose piece's net translation and rotation since [`remember`] out again, and out of its momentum.
-pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, constraints: &mut FilmConstraints, before: &[Vec3]) {
+pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, points: &mut Points, before: &[Vec3]) {
     let mut left = before;
     for piece in loose.iter() {
-        if !is_awake(&piece, constraints) {
+        if !is_awake(&piece, points) {
             continue;
         }
         let Some((before, rest)) = left.split_at_checked(piece.vertices.len()) else { return };
@@ -30,23 +33,23 @@ pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, constraints: &mut 
         let turn = net_rotation(before.iter().map(|p| p - centre_before), now().map(|p| p - centre_now));
         let back = |p: Vec3| centre_before + turn * (p - centre_now);
         for &v in piece.vertices {
-            if constraints.is_asleep(v) {
+            if points.motion(v.index()) == Motion::Asleep {
                 continue;
             }
             let i = v.index();
             let p = above_plane(back(geometry.positions[i]), geometry.rest_positions[i], geometry.rest_normals[i]);
             geometry.positions[i] = p;
-            constraints.points.put(i, p, back(constraints.points.position_before(i)));
+            points.put(i, p, back(points.position_before(i)));
         }
     }
 }
 
-/// Whether any vertex of a piece moves.
-fn is_awake(piece: &LoosePiece, constraints: &FilmConstraints) -> bool {
-    piece.vertices.iter().any(|&v| !constraints.is_asleep(v))
+/// Returns whether any vertex of a piece moves.
+fn is_awake(piece: &LoosePiece, points: &Points) -> bool {
+    piece.vertices.iter().any(|&v| points.motion(v.index()) != Motion::Asleep)
 }
 
-/// The rotation that takes the net turn from `before` to `now` (both about their centres) out again: the
+/// Returns the rotation that takes the net turn from `before` to `now` (both about their centres) out again: the
 /// angular velocity of the displacement, from angular momentum and inertia tensor of unit masses.
 fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Vec3>) -> Quat {
     let (mut momentum, mut inertia) = (Vec3::ZERO, Mat3::ZERO);

@@ -1,7 +1,5 @@
 //! The tools from outside: exit codes, figures, files, and aged models in other readers.
 
-#[path = "../../examples/common/mod.rs"]
-mod common;
 mod tool;
 
 mod figures;

@@ -4,12 +4,12 @@
 //! All functions need the instruction set of their lanes, and indices within the points.
 
 use super::{
-    lanes::Lanes,
-    pack::{BendPack, BendTargets, LANES, Lane, LengthPack},
-    points::{Point, PointOffset},
+    lanes::vector::Lanes,
+    pack::{BendPack, BendTargets, LANES, LengthPack, PerLane},
+    point::{Point, PointOffset},
 };
 
-/// Three components.
+/// Vector of three components, each a vector of lanes.
 #[derive(Clone, Copy)]
 struct Vec3<L>(L, L, L);
 
@@ -61,19 +61,20 @@ unsafe fn join<L: Lanes>(v: Vec3<L>, w: L) -> [L; 4] {
     [v.0, v.1, v.2, w]
 }
 
-/// The places from lane `at` on.
+/// Returns the offsets from lane `at` on.
 #[inline(always)]
-fn place(places: &Lane<PointOffset>, at: usize) -> *const PointOffset {
-    places.as_ptr().wrapping_add(at)
+fn offsets_at(offsets: &PerLane<PointOffset>, at: usize) -> *const PointOffset {
+    offsets.as_ptr().wrapping_add(at)
 }
 
-/// Below this, the square of the sum of the unit normals leaves no neutral direction: a fully folded pair.
+/// Least square of the length of the sum of two unit normals. A smaller one is that of a fully folded pair, which has
+/// no neutral direction.
 const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
 
-/// Packs that are read forward, as memory is read best, before the run in front of them.
+/// Number of packs that are read forward, as memory is read best, before the run in front of them.
 const RUN: usize = 8;
 
-/// Every bend constraint in turn (VC 4.3, appendix), in the form with 4 square roots.
+/// Projects every bend constraint in turn (VC 4.3, appendix), in the form with 4 square roots.
 ///
 /// With `e = p1 - p2`, `v` the middle of the edge, `a_i = v - p_i` the medians of the wings (i = 3, 4),
 /// `c3 = e x a3` and `c4 = a4 x e` the normals, `n_i` their lengths, `m = n4 c3 + n3 c4` along the neutral direction,
@@ -99,11 +100,11 @@ pub(super) unsafe fn sweep_bends<L: Lanes>(points: *mut Point, packs: &[BendPack
 unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
     unsafe {
         let [p1, p2, p3, p4] = &pack.points;
-        let places = [place(p1, at), place(p2, at), place(p3, at), place(p4, at)];
-        let (p1, w1) = split(L::gather(points, places[0]));
-        let (p2, w2) = split(L::gather(points, places[1]));
-        let (p3, w3) = split(L::gather(points, places[2]));
-        let (p4, w4) = split(L::gather(points, places[3]));
+        let offsets = [offsets_at(p1, at), offsets_at(p2, at), offsets_at(p3, at), offsets_at(p4, at)];
+        let (p1, w1) = split(L::gather(points, offsets[0]));
+        let (p2, w2) = split(L::gather(points, offsets[1]));
+        let (p3, w3) = split(L::gather(points, offsets[2]));
+        let (p4, w4) = split(L::gather(points, offsets[3]));
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let edge = p1.sub(p2);
         let middle = p1.add(p2).scale(L::splat(0.5));
@@ -130,14 +131,14 @@ unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
         let edge_part = b3.scale(without3).add(b4.scale(without4)).scale(share);
         // Inverse masses are 0 or 1: leaving out is multiplying.
         let (free1, free2) = (w1.gt(zero), w2.gt(zero));
-        L::scatter(points, places[0], join(p1.add(edge_part.keep(free1)), w1));
-        L::scatter(points, places[1], join(p2.add(edge_part.keep(free2)), w2));
-        L::scatter(points, places[2], join(p3.sub(b3.scale(w3.mul(whole))), w3));
-        L::scatter(points, places[3], join(p4.sub(b4.scale(w4.mul(whole))), w4));
+        L::scatter(points, offsets[0], join(p1.add(edge_part.keep(free1)), w1));
+        L::scatter(points, offsets[1], join(p2.add(edge_part.keep(free2)), w2));
+        L::scatter(points, offsets[2], join(p3.sub(b3.scale(w3.mul(whole))), w3));
+        L::scatter(points, offsets[3], join(p4.sub(b4.scale(w4.mul(whole))), w4));
     }
 }
 
-/// What the wings of a pair share; see [`sweep_bends`].
+/// Quantities that the wings of a pair share; see [`sweep_bends`].
 #[derive(Clone, Copy)]
 struct Pair<L: Lanes> {
     m: Vec3<L>,
@@ -148,8 +149,8 @@ struct Pair<L: Lanes> {
 }
 
 impl<L: Lanes> Pair<L> {
-    /// `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be inlined, and then
-    /// every instruction would be a call.)
+    /// Returns `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be
+    /// inlined, and then every instruction would be a call.)
     #[inline(always)]
     unsafe fn wing(self, a: Vec3<L>, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
         unsafe {
@@ -171,7 +172,7 @@ impl<L: Lanes> Pair<L> {
     }
 }
 
-/// Every length constraint in turn (VC 4.2).
+/// Projects every length constraint in turn (VC 4.2).
 #[inline(always)]
 pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[LengthPack]) {
     for pack in packs.rchunks(RUN).flatten() {
@@ -185,9 +186,9 @@ pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[Length
 #[inline(always)]
 unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
     unsafe {
-        let places = [place(&pack.points[0], at), place(&pack.points[1], at)];
-        let (p1, w1) = split(L::gather(points, places[0]));
-        let (p2, w2) = split(L::gather(points, places[1]));
+        let offsets = [offsets_at(&pack.points[0], at), offsets_at(&pack.points[1], at)];
+        let (p1, w1) = split(L::gather(points, offsets[0]));
+        let (p2, w2) = split(L::gather(points, offsets[1]));
         let rest = L::load(pack.rest.as_ptr().wrapping_add(at));
         let difference = p1.sub(p2);
         let length = difference.dot(difference).sqrt();
@@ -196,12 +197,12 @@ unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
         let valid = under.gt(zero);
         let correction = difference.scale(length.sub(rest).div(under).keep(valid));
         let (free1, free2) = (w1.gt(zero), w2.gt(zero));
-        L::scatter(points, places[0], join(p1.sub(correction.keep(free1)), w1));
-        L::scatter(points, places[1], join(p2.add(correction.keep(free2)), w2));
+        L::scatter(points, offsets[0], join(p1.sub(correction.keep(free1)), w1));
+        L::scatter(points, offsets[1], join(p2.add(correction.keep(free2)), w2));
     }
 }
 
-/// Takes out what puts a point below its plane (VC 5).
+/// Returns `p`, lifted onto its plane if it is below (VC 5).
 #[inline(always)]
 unsafe fn above<L: Lanes>(p: Vec3<L>, normal: Vec3<L>, distance: L) -> Vec3<L> {
     unsafe {
@@ -211,10 +212,10 @@ unsafe fn above<L: Lanes>(p: Vec3<L>, normal: Vec3<L>, distance: L) -> Vec3<L> {
     }
 }
 
-/// Half-space of the points at `places`.
+/// Lifts onto their planes those points (VC 5) that are below, of the points at `offsets`.
 #[inline(always)]
-pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, places: &[PointOffset]) {
-    for group in places.chunks_exact(L::WIDTH) {
+pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point, offsets: &[PointOffset]) {
+    for group in offsets.chunks_exact(L::WIDTH) {
         // SAFETY: the caller's.
         unsafe {
             let (p, w) = split(L::gather(points, group.as_ptr()));
@@ -224,17 +225,17 @@ pub(super) unsafe fn project<L: Lanes>(points: *mut Point, planes: *const Point,
     }
 }
 
-/// Heavy-ball momentum: the points at `places` go on by `keep` of what they moved since `before`, which becomes where
+/// Moves the points at `offsets` on by `keep` of what they moved since `before`, which becomes where
 /// they are now; then the half-space.
 #[inline(always)]
 pub(super) unsafe fn advance<L: Lanes>(
     points: *mut Point,
     before: *mut Point,
     planes: *const Point,
-    places: &[PointOffset],
+    offsets: &[PointOffset],
     keep: f32,
 ) {
-    for group in places.chunks_exact(L::WIDTH) {
+    for group in offsets.chunks_exact(L::WIDTH) {
         // SAFETY: the caller's.
         unsafe {
             let (p, w) = split(L::gather(points, group.as_ptr()));
@@ -247,7 +248,7 @@ pub(super) unsafe fn advance<L: Lanes>(
     }
 }
 
-/// Narrows the targets of a pack by `step`, down to `limit` below where they began, and renews its folds. Gives
+/// Narrows the targets of a pack by `step`, down to `limit` below where they began, and renews its folds. Returns
 /// whether any may still narrow.
 #[inline(always)]
 pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTargets, step: f32, limit: f32) -> bool {
@@ -272,8 +273,8 @@ pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTarg
     ends.iter().any(|&left| left > 0.0)
 }
 
-/// `cos(angle / 2)` for angles in -2 pi to 2 pi, to a few units of the last place of 1: `1 - 2 sin^2(angle / 4)` with
-/// the sine's series up to the 11th power.
+/// Returns `cos(angle / 2)` for angles in -2 pi to 2 pi, to a few units of the last place of 1:
+/// `1 - 2 sin^2(angle / 4)` with the sine's series up to the 11th power.
 #[inline(always)]
 unsafe fn cosine_of_half<L: Lanes>(angle: L) -> L {
     unsafe {

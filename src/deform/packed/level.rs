@@ -2,12 +2,19 @@
 
 use super::{
     kernels,
-    lanes::{self, Lanes},
+    lanes::{self, vector::Lanes},
     pack::{BendPack, BendTargets, LengthPack},
-    points::{Point, PointOffset},
+    point::{Point, PointOffset},
 };
 
-/// An instruction set that the solver has kernels for. All give the same bits.
+/// Instruction set that the packed solver has kernels for. All give the same bits.
+///
+/// ```
+/// use bevy_coating::deform::SimdLevel;
+///
+/// assert!(SimdLevel::best().is_available() && SimdLevel::Scalar.is_available());
+/// assert_eq!(SimdLevel::default(), SimdLevel::best());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {
     /// One float at a time, on any CPU.
@@ -23,10 +30,10 @@ pub enum SimdLevel {
 }
 
 impl SimdLevel {
-    /// Every level, the slowest first.
+    /// All levels, the slowest first.
     pub const ALL: [Self; 5] = [Self::Scalar, Self::Neon, Self::Sse2, Self::Avx2, Self::Avx512];
 
-    /// Whether this CPU has it.
+    /// Returns whether this CPU has the instruction set.
     pub fn is_available(self) -> bool {
         match self {
             Self::Scalar => true,
@@ -43,12 +50,12 @@ impl SimdLevel {
         }
     }
 
-    /// The best that this CPU has.
+    /// Returns the best level that this CPU has.
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|level| level.is_available()).unwrap_or(Self::Scalar)
     }
 
-    /// Lower-case name, as in benchmarks.
+    /// Returns the lower-case name, as in benchmarks.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scalar => "scalar",
@@ -66,12 +73,12 @@ impl Default for SimdLevel {
     }
 }
 
-/// The kernels of one level.
+/// Kernels of one level.
 ///
 /// # Safety
 /// To be called only where the level is available, with indices within the points.
 #[derive(Clone, Copy)]
-pub(super) struct Kernels {
+pub struct Kernels {
     pub sweep_bends: unsafe fn(*mut Point, &[BendPack]),
     pub sweep_lengths: unsafe fn(*mut Point, &[LengthPack]),
     pub project: unsafe fn(*mut Point, *const Point, &[PointOffset]),
@@ -92,12 +99,18 @@ macro_rules! kernels_with {
             unsafe { kernels::sweep_lengths::<$Lanes>(points, packs) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn project(points: *mut Point, planes: *const Point, places: &[PointOffset]) {
-            unsafe { kernels::project::<$Lanes>(points, planes, places) }
+        unsafe fn project(points: *mut Point, planes: *const Point, offsets: &[PointOffset]) {
+            unsafe { kernels::project::<$Lanes>(points, planes, offsets) }
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn advance(points: *mut Point, before: *mut Point, planes: *const Point, places: &[PointOffset], keep: f32) {
-            unsafe { kernels::advance::<$Lanes>(points, before, planes, places, keep) }
+        unsafe fn advance(
+            points: *mut Point,
+            before: *mut Point,
+            planes: *const Point,
+            offsets: &[PointOffset],
+            keep: f32,
+        ) {
+            unsafe { kernels::advance::<$Lanes>(points, before, planes, offsets, keep) }
         }
         $(#[target_feature(enable = $feature)])?
         unsafe fn narrow(pack: &mut BendPack, angles: &mut BendTargets, step: f32, limit: f32) -> bool {
@@ -109,7 +122,7 @@ macro_rules! kernels_with {
 }
 
 impl Kernels {
-    /// The kernels of `level`, or of the scalar twin if this CPU does not have it.
+    /// Returns the kernels of `level`, or of the scalar twin if this CPU does not have it.
     pub fn of(level: SimdLevel) -> Self {
         if !level.is_available() {
             return kernels_with!(lanes::scalar::Scalar);

@@ -1,62 +1,62 @@
 //! Packs: constraints that share no point, side by side, to be solved at once.
 //!
-//! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused lanes
-//! refer to the null point, which nothing moves.
+//! A pack is 32 constraints wide whatever the machine, so that the order of solving is the same everywhere. Unused
+//! lanes refer to the null point, which nothing moves.
 
-use super::points::PointOffset;
+use super::point::PointOffset;
 
-/// Constraints in a pack.
+/// Number of constraints in a pack.
 pub const LANES: usize = 32;
 
-/// One value a lane.
-pub(super) type Lane<T> = [T; LANES];
+/// Array of one value for each lane of a pack.
+pub type PerLane<T> = [T; LANES];
 
 /// Bend constraints as the sweeps read them.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct BendPack {
     /// Ends of the edge and tips of the two wings: p1, p2, p3, p4.
-    pub points: [Lane<PointOffset>; 4],
-    /// `skew cos(phi0 / 2)` of each wing: the cosine at which it rests.
-    pub folds: [Lane<f32>; 2],
+    pub points: [PerLane<PointOffset>; 4],
+    /// Cosine at which each wing rests: `skew cos(phi0 / 2)`.
+    pub folds: [PerLane<f32>; 2],
     /// Square of each wing's median at rest.
-    pub medians: [Lane<f32>; 2],
+    pub medians: [PerLane<f32>; 2],
 }
 
-/// What the folds of a [`BendPack`] are made of.
+/// Angles and shapes that the folds of a [`BendPack`] are made of.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct BendTargets {
     /// Rest altitude over rest median of each wing, in 0..=1.
-    pub skews: [Lane<f32>; 2],
+    pub skews: [PerLane<f32>; 2],
     /// Angle at which each constraint began, in radians.
-    pub starts: Lane<f32>,
+    pub starts: PerLane<f32>,
     /// Target angle phi0 now, in radians.
-    pub targets: Lane<f32>,
+    pub targets: PerLane<f32>,
 }
 
 /// Length constraints as the sweeps read them.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct LengthPack {
-    /// The two ends.
-    pub points: [Lane<PointOffset>; 2],
+    /// Two ends of the edge.
+    pub points: [PerLane<PointOffset>; 2],
     /// Rest length.
-    pub rest: Lane<f32>,
+    pub rest: PerLane<f32>,
 }
 
 impl BendPack {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self =
         Self { points: [[PointOffset::NULL; LANES]; 4], folds: [[0.0; LANES]; 2], medians: [[0.0; LANES]; 2] };
 }
 
 impl BendTargets {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self = Self { skews: [[0.0; LANES]; 2], starts: [0.0; LANES], targets: [0.0; LANES] };
 }
 
 impl LengthPack {
-    /// A pack of null constraints.
+    /// Pack of null constraints.
     pub const NULL: Self = Self { points: [[PointOffset::NULL; LANES]; 2], rest: [0.0; LANES] };
 }

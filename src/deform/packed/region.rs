@@ -1,14 +1,14 @@
 //! Packs of one region of a film: constraints that lie near each other, so that their points stay in the cache.
 
 use super::{
-    level::Kernels,
+    level::{Kernels, SimdLevel},
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::{Motion, PointOffset, Points},
+    point::PointOffset,
+    points::{Motion, Points},
     slots::{Blocked, Slots},
 };
-use crate::deform::SimdLevel;
 
-/// A bend constraint, as a lane holds it. Lengths are in the points' unit.
+/// Bend constraint, as a lane holds it. Lengths are in the points' unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendLane {
     /// Vertices p1, p2, p3, p4.
@@ -23,7 +23,7 @@ pub struct BendLane {
     pub target: f32,
 }
 
-/// A length constraint, as a lane holds it. Lengths are in the points' unit.
+/// Length constraint, as a lane holds it. Lengths are in the points' unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthLane {
     /// The two vertices.
@@ -32,7 +32,7 @@ pub struct LengthLane {
     pub rest: f32,
 }
 
-/// Packs of bends and lengths. Owners are half-edges.
+/// Packs of bends and lengths of one region. Owners are half-edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Region {
     bends: Vec<BendPack>,
@@ -45,129 +45,121 @@ pub struct Region {
 }
 
 impl Region {
-    /// Number of bends and of lengths.
+    /// Returns the number of bends and of lengths.
     pub fn counts(&self) -> [usize; 2] {
         [self.bend_slots.live(), self.length_slots.live()]
     }
 
-    /// Number of packs of bends and of lengths.
-    pub fn packs(&self) -> [usize; 2] {
-        [self.bend_slots.packs(), self.length_slots.packs()]
-    }
-
-    /// Adds a bend; gives its lane.
+    /// Adds a bend to a pack that is not blocked. Returns its lane.
     pub fn add_bend(&mut self, owner: u32, bend: &BendLane, blocked: &Blocked, points: &Points) -> u32 {
-        let (lane, begun) = self.bend_slots.place(owner, blocked);
+        let (lane, begun) = self.bend_slots.claim(owner, blocked);
         if begun {
             self.bends.push(BendPack::NULL);
             self.targets.push(BendTargets::NULL);
             self.narrowing.push(true);
         }
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         for i in 0..2 {
-            self.bends[pack].medians[i][place] = bend.medians[i];
-            self.targets[pack].skews[i][place] = bend.skews[i];
+            self.bends[pack].medians[i][slot] = bend.medians[i];
+            self.targets[pack].skews[i][slot] = bend.skews[i];
         }
-        self.targets[pack].starts[place] = bend.start;
-        self.targets[pack].targets[place] = bend.target;
+        self.targets[pack].starts[slot] = bend.start;
+        self.targets[pack].targets[slot] = bend.target;
         // Its folds are found when the targets narrow next.
         self.narrowing[pack] = true;
         self.move_bend(lane, bend.vertices, points);
         lane
     }
 
-    /// Adds a length; gives its lane.
+    /// Adds a length to a pack that is not blocked. Returns its lane.
     pub fn add_length(&mut self, owner: u32, length: &LengthLane, blocked: &Blocked, points: &Points) -> u32 {
-        let (lane, begun) = self.length_slots.place(owner, blocked);
+        let (lane, begun) = self.length_slots.claim(owner, blocked);
         if begun {
             self.lengths.push(LengthPack::NULL);
         }
-        let (pack, place) = split(lane);
-        self.lengths[pack].rest[place] = length.rest;
+        let (pack, slot) = split(lane);
+        self.lengths[pack].rest[slot] = length.rest;
         self.move_length(lane, length.vertices, points);
         lane
     }
 
     /// Makes a bend refer to other vertices.
     pub fn move_bend(&mut self, lane: u32, vertices: [u32; 4], points: &Points) {
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         for (i, v) in vertices.into_iter().enumerate() {
-            self.bends[pack].points[i][place] = points.place(v);
+            self.bends[pack].points[i][slot] = points.offset(v);
         }
     }
 
     /// Makes a length refer to other vertices.
     pub fn move_length(&mut self, lane: u32, vertices: [u32; 2], points: &Points) {
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         for (i, v) in vertices.into_iter().enumerate() {
-            self.lengths[pack].points[i][place] = points.place(v);
+            self.lengths[pack].points[i][slot] = points.offset(v);
         }
     }
 
-    /// The bend in `lane`.
+    /// Returns the bend in `lane`.
     pub fn bend(&self, lane: u32, points: &Points) -> BendLane {
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         let (bends, targets) = (&self.bends[pack], &self.targets[pack]);
         BendLane {
-            vertices: [0, 1, 2, 3].map(|i| points.vertex(bends.points[i][place]) as u32),
-            skews: [0, 1].map(|i| targets.skews[i][place]),
-            medians: [0, 1].map(|i| bends.medians[i][place]),
-            start: targets.starts[place],
-            target: targets.targets[place],
+            vertices: [0, 1, 2, 3].map(|i| points.vertex(bends.points[i][slot]) as u32),
+            skews: [0, 1].map(|i| targets.skews[i][slot]),
+            medians: [0, 1].map(|i| bends.medians[i][slot]),
+            start: targets.starts[slot],
+            target: targets.targets[slot],
         }
     }
 
-    /// The length in `lane`.
+    /// Returns the length in `lane`.
     pub fn length(&self, lane: u32, points: &Points) -> LengthLane {
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         let lengths = &self.lengths[pack];
-        LengthLane {
-            vertices: [0, 1].map(|i| points.vertex(lengths.points[i][place]) as u32),
-            rest: lengths.rest[place],
-        }
+        LengthLane { vertices: [0, 1].map(|i| points.vertex(lengths.points[i][slot]) as u32), rest: lengths.rest[slot] }
     }
 
-    /// Takes a bend out of its lane.
+    /// Takes a bend out of its lane and returns it.
     pub fn remove_bend(&mut self, lane: u32, points: &Points) -> BendLane {
         let bend = self.bend(lane, points);
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         let (bends, targets) = (&mut self.bends[pack], &mut self.targets[pack]);
         for i in 0..4 {
-            bends.points[i][place] = PointOffset::NULL;
+            bends.points[i][slot] = PointOffset::NULL;
         }
         for i in 0..2 {
-            bends.medians[i][place] = 0.0;
-            bends.folds[i][place] = 0.0;
-            targets.skews[i][place] = 0.0;
+            bends.medians[i][slot] = 0.0;
+            bends.folds[i][slot] = 0.0;
+            targets.skews[i][slot] = 0.0;
         }
-        targets.starts[place] = 0.0;
-        targets.targets[place] = 0.0;
+        targets.starts[slot] = 0.0;
+        targets.targets[slot] = 0.0;
         self.bend_slots.release(lane);
         bend
     }
 
-    /// Takes a length out of its lane.
+    /// Takes a length out of its lane and returns it.
     pub fn remove_length(&mut self, lane: u32, points: &Points) -> LengthLane {
         let length = self.length(lane, points);
-        let (pack, place) = split(lane);
+        let (pack, slot) = split(lane);
         for i in 0..2 {
-            self.lengths[pack].points[i][place] = PointOffset::NULL;
+            self.lengths[pack].points[i][slot] = PointOffset::NULL;
         }
-        self.lengths[pack].rest[place] = 0.0;
+        self.lengths[pack].rest[slot] = 0.0;
         self.length_slots.release(lane);
         length
     }
 
-    /// Whether every vertex that `lane`'s bend refers to is still.
+    /// Returns whether no vertex that the bend in `lane` refers to is awake.
     pub fn bend_is_still(&self, lane: u32, points: &Points) -> bool {
-        let (pack, place) = split(lane);
-        self.bends[pack].points.iter().all(|p| points.motion_at(p[place]) != Motion::Awake)
+        let (pack, slot) = split(lane);
+        self.bends[pack].points.iter().all(|p| points.motion_at(p[slot]) != Motion::Awake)
     }
 
-    /// Whether both vertices that `lane`'s length refers to are still.
+    /// Returns whether no vertex that the length in `lane` refers to is awake.
     pub fn length_is_still(&self, lane: u32, points: &Points) -> bool {
-        let (pack, place) = split(lane);
-        self.lengths[pack].points.iter().all(|p| points.motion_at(p[place]) != Motion::Awake)
+        let (pack, slot) = split(lane);
+        self.lengths[pack].points.iter().all(|p| points.motion_at(p[slot]) != Motion::Awake)
     }
 
     /// Narrows all targets by `step`, down to `limit` below where they began (radians).
@@ -184,33 +176,36 @@ impl Region {
         }
     }
 
-    /// Looks at all targets anew: settings have changed.
+    /// Has all targets looked at when they narrow next, as the settings have changed.
     pub fn restart_narrowing(&mut self) {
         self.narrowing.fill(true);
     }
 
-    pub(super) fn sweep_bends(&self, points: &mut Points, kernels: &Kernels) {
-        // SAFETY: kernels are those of this CPU, and only places of points went into packs; their number never
+    /// Projects every bend in turn.
+    pub fn sweep_bends(&self, points: &mut Points, kernels: &Kernels) {
+        // SAFETY: kernels are those of this CPU, and only offsets of points went into packs; their number never
         // falls.
         unsafe { (kernels.sweep_bends)(points.now_mut().as_mut_ptr(), &self.bends) }
     }
 
-    pub(super) fn sweep_lengths(&self, points: &mut Points, kernels: &Kernels) {
+    /// Projects every length in turn.
+    pub fn sweep_lengths(&self, points: &mut Points, kernels: &Kernels) {
         // SAFETY: as above.
         unsafe { (kernels.sweep_lengths)(points.now_mut().as_mut_ptr(), &self.lengths) }
     }
 
-    /// The pack of bends to be given up, if they fill too few lanes.
+    /// Returns the pack of bends to be given up, if bends fill too few lanes.
     pub fn sparse_bends(&self) -> Option<usize> {
         sparse(&self.bend_slots)
     }
 
-    /// The pack of lengths to be given up, if they fill too few lanes.
+    /// Returns the pack of lengths to be given up, if lengths fill too few lanes.
     pub fn sparse_lengths(&self) -> Option<usize> {
         sparse(&self.length_slots)
     }
 
-    /// Removes a pack of bends. `taken` gets what it held; the owners and lanes of those that moved go to `moved`.
+    /// Removes a pack of bends. Puts what it held and the owners into `taken`, and calls `moved` with the owner and the
+    /// new lane of each bend of the pack that takes its number.
     pub fn dissolve_bends(
         &mut self,
         pack: usize,
@@ -220,12 +215,10 @@ impl Region {
     ) {
         let first = (pack * LANES) as u32;
         taken.clear();
-        taken.extend(
-            self.bend_slots.owners(pack).map(|(place, owner)| (owner, self.bend(first + place as u32, points))),
-        );
-        for place in 0..LANES as u32 {
-            if self.bend_slots.is_used(first + place) {
-                self.bend_slots.release(first + place);
+        taken.extend(self.bend_slots.owners(pack).map(|(slot, owner)| (owner, self.bend(first + slot as u32, points))));
+        for slot in 0..LANES as u32 {
+            if self.bend_slots.is_used(first + slot) {
+                self.bend_slots.release(first + slot);
             }
         }
         self.bend_slots.remove(pack);
@@ -233,11 +226,11 @@ impl Region {
         self.targets.swap_remove(pack);
         self.narrowing.swap_remove(pack);
         if pack < self.bends.len() {
-            self.bend_slots.owners(pack).for_each(|(place, owner)| moved(owner, first + place as u32));
+            self.bend_slots.owners(pack).for_each(|(slot, owner)| moved(owner, first + slot as u32));
         }
     }
 
-    /// Removes a pack of lengths, as above.
+    /// Removes a pack of lengths, as [`dissolve_bends`](Self::dissolve_bends) does one of bends.
     pub fn dissolve_lengths(
         &mut self,
         pack: usize,
@@ -248,22 +241,23 @@ impl Region {
         let first = (pack * LANES) as u32;
         taken.clear();
         taken.extend(
-            self.length_slots.owners(pack).map(|(place, owner)| (owner, self.length(first + place as u32, points))),
+            self.length_slots.owners(pack).map(|(slot, owner)| (owner, self.length(first + slot as u32, points))),
         );
-        for place in 0..LANES as u32 {
-            if self.length_slots.is_used(first + place) {
-                self.length_slots.release(first + place);
+        for slot in 0..LANES as u32 {
+            if self.length_slots.is_used(first + slot) {
+                self.length_slots.release(first + slot);
             }
         }
         self.length_slots.remove(pack);
         self.lengths.swap_remove(pack);
         if pack < self.lengths.len() {
-            self.length_slots.owners(pack).for_each(|(place, owner)| moved(owner, first + place as u32));
+            self.length_slots.owners(pack).for_each(|(slot, owner)| moved(owner, first + slot as u32));
         }
     }
 }
 
-/// Packs are given up one at a time while fewer than five of eight lanes are used.
+/// Returns the pack to be given up, if any: packs are given up one at a time while fewer than five of eight lanes are
+/// used.
 fn sparse(slots: &Slots) -> Option<usize> {
     let packs = slots.packs();
     let dense = slots.live() * 8 >= packs * LANES * 5;
@@ -272,6 +266,7 @@ fn sparse(slots: &Slots) -> Option<usize> {
     (used == 0 || packs > 32).then_some(pack)
 }
 
+/// Returns the pack and the slot of a lane.
 fn split(lane: u32) -> (usize, usize) {
     (lane as usize / LANES, lane as usize % LANES)
 }

@@ -1,9 +1,9 @@
 //! Which lane of which pack holds which constraint.
 
-use super::pack::{LANES, Lane};
+use super::pack::{LANES, PerLane};
 
-/// Packs that are tried for a constraint before a new one is begun. A constraint has some thirty neighbours, each of
-/// which blocks one pack at most, so this rarely fails while there is room.
+/// Number of packs that are tried for a constraint before a new one is begun. A constraint has some thirty neighbours,
+/// each of which blocks one pack at most, so this rarely fails while there is room.
 const TRIES: usize = 64;
 
 /// Packs that hold a constraint which shares a point with the one to be placed.
@@ -15,7 +15,7 @@ pub struct Blocked {
 }
 
 impl Blocked {
-    /// Begins with the next constraint: nothing is blocked.
+    /// Begins with the next constraint: unblocks all packs.
     pub fn next(&mut self) {
         self.number = self.number.wrapping_add(1);
         if self.number == 0 {
@@ -41,30 +41,33 @@ impl Blocked {
     }
 }
 
-/// Lanes and their owners. A lane's number is 32 times its pack's plus its place in the pack.
+/// Lanes and their owners. A lane's number is 32 times its pack's plus its slot, the place within the pack.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Slots {
+pub struct Slots {
     /// Owner of each lane, where it is used.
-    owners: Vec<Lane<u32>>,
-    /// One bit a lane: whether it is used.
+    owners: Vec<PerLane<u32>>,
+    /// Whether each lane is used: one bit a lane, one word a pack.
     used: Vec<u32>,
-    /// One bit a pack: whether it has room.
+    /// Whether each pack has room: one bit a pack.
     open: Vec<u64>,
-    /// Used lanes.
+    /// Number of used lanes.
     live: usize,
 }
 
 impl Slots {
+    /// Returns the number of packs.
     pub fn packs(&self) -> usize {
         self.used.len()
     }
 
+    /// Returns the number of used lanes.
     pub fn live(&self) -> usize {
         self.live
     }
 
-    /// Gives `owner` a lane in the first pack with room that is not blocked; whether a pack was begun for it.
-    pub fn place(&mut self, owner: u32, blocked: &Blocked) -> (u32, bool) {
+    /// Gives `owner` a lane in the first pack with room that is not blocked. Returns the lane, and whether a pack was
+    /// begun for it.
+    pub fn claim(&mut self, owner: u32, blocked: &Blocked) -> (u32, bool) {
         let found = self.open_packs().take(TRIES).find(|&pack| !blocked.is_blocked(pack));
         let pack = found.unwrap_or_else(|| {
             self.owners.push([0; LANES]);
@@ -73,36 +76,36 @@ impl Slots {
             self.set_open(pack, true);
             pack
         });
-        let place = self.used[pack].trailing_ones();
-        self.used[pack] |= 1 << place;
-        self.owners[pack][place as usize] = owner;
+        let slot = self.used[pack].trailing_ones();
+        self.used[pack] |= 1 << slot;
+        self.owners[pack][slot as usize] = owner;
         self.live += 1;
         if self.used[pack] == u32::MAX {
             self.set_open(pack, false);
         }
-        (pack as u32 * LANES as u32 + place, found.is_none())
+        (pack as u32 * LANES as u32 + slot, found.is_none())
     }
 
     /// Frees a lane.
     pub fn release(&mut self, lane: u32) {
-        let (pack, place) = (lane as usize / LANES, lane % LANES as u32);
-        self.used[pack] &= !(1 << place);
+        let (pack, slot) = (lane as usize / LANES, lane % LANES as u32);
+        self.used[pack] &= !(1 << slot);
         self.live -= 1;
         self.set_open(pack, true);
     }
 
-    /// The emptiest pack and its number of used lanes; the first of several.
+    /// Returns the emptiest pack (the first of several) and its number of used lanes.
     pub fn emptiest(&self) -> Option<(usize, u32)> {
         self.used.iter().map(|used| used.count_ones()).enumerate().min_by_key(|&(pack, used)| (used, pack))
     }
 
-    /// Used lanes of `pack`: place and owner.
+    /// Returns slot and owner of each used lane of `pack`.
     pub fn owners(&self, pack: usize) -> impl Iterator<Item = (usize, u32)> + '_ {
         let used = self.used[pack];
-        (0..LANES).filter(move |place| used & (1 << place) != 0).map(move |place| (place, self.owners[pack][place]))
+        (0..LANES).filter(move |slot| used & (1 << slot) != 0).map(move |slot| (slot, self.owners[pack][slot]))
     }
 
-    /// Removes an empty pack; the last one takes its number.
+    /// Removes an empty pack. The last one takes its number.
     pub fn remove(&mut self, pack: usize) {
         debug_assert_eq!(self.used[pack], 0);
         self.set_open(self.used.len() - 1, false);
@@ -135,10 +138,8 @@ impl Slots {
             })
         })
     }
-}
 
-impl Slots {
-    /// Whether `lane` is used.
+    /// Returns whether `lane` is used.
     pub fn is_used(&self, lane: u32) -> bool {
         self.used[lane as usize / LANES] & (1 << (lane % LANES as u32)) != 0
     }

@@ -5,14 +5,18 @@ use proptest::prelude::*;
 
 use super::{
     kernels,
-    lanes::{self, Lanes},
-    level::Kernels,
+    lanes::{self, vector::Lanes},
+    level::{Kernels, SimdLevel},
     pack::{BendPack, BendTargets, LANES, LengthPack},
-    points::{Point, PointOffset},
-    *,
+    point::{Point, PointOffset},
 };
-use crate::deform::{BendConstraint, bend::bend_corrections, length::length_corrections};
-use crate::film::{HalfEdgeId, signed_dihedral};
+use crate::{
+    deform::{
+        bend::{BendConstraint, bend_corrections},
+        length::length_corrections,
+    },
+    film::{HalfEdgeId, signed_dihedral},
+};
 
 /// Levels to be compared with the scalar twin. Says which this CPU lacks.
 fn levels() -> Vec<SimdLevel> {
@@ -50,7 +54,7 @@ fn points(count: usize) -> impl Strategy<Value = Vec<Point>> {
 }
 
 /// Lane `i` of list `k` gets point `1 + k * 32 + i`.
-fn places<const N: usize>() -> [[PointOffset; LANES]; N] {
+fn offsets<const N: usize>() -> [[PointOffset; LANES]; N] {
     std::array::from_fn(|k| std::array::from_fn(|i| PointOffset::new(1 + k * LANES + i)))
 }
 
@@ -60,7 +64,7 @@ fn floats(range: std::ops::Range<f32>) -> impl Strategy<Value = [f32; LANES]> {
 
 fn bend_pack() -> impl Strategy<Value = BendPack> {
     ([floats(-1.0..1.0), floats(-1.0..1.0)], [floats(0.0..2.0), floats(0.0..2.0)])
-        .prop_map(|(folds, medians)| BendPack { points: places(), folds, medians })
+        .prop_map(|(folds, medians)| BendPack { points: offsets(), folds, medians })
 }
 
 proptest! {
@@ -79,7 +83,7 @@ proptest! {
 
     #[test]
     fn lengths_are_the_same_bits_at_every_level(points in points(2 * LANES), rest in floats(0.0..2.0)) {
-        let pack = LengthPack { points: places(), rest };
+        let pack = LengthPack { points: offsets(), rest };
         let solve = |level| {
             let mut points = points.clone();
             unsafe { (Kernels::of(level).sweep_lengths)(points.as_mut_ptr(), std::slice::from_ref(&pack)) };
@@ -95,7 +99,7 @@ proptest! {
     fn momentum_and_half_space_are_the_same_bits_at_every_level(
         now in points(LANES), before in points(LANES), planes in points(LANES), keep in 0.0f32..1.0,
     ) {
-        let [awake] = places::<1>();
+        let [awake] = offsets::<1>();
         let run = |level| {
             let (mut now, mut before) = (now.clone(), before.clone());
             let kernels = Kernels::of(level);
@@ -113,7 +117,8 @@ proptest! {
 
     #[test]
     fn narrowing_is_the_same_bits_at_every_level_and_its_cosine_is_right(
-        starts in floats(0.1..6.2), skews in [floats(0.0..1.0), floats(0.0..1.0)], step in 0.0f32..0.5, limit in 0.0f32..3.0,
+        starts in floats(0.1..6.2), skews in [floats(0.0..1.0), floats(0.0..1.0)],
+        step in 0.0f32..0.5, limit in 0.0f32..3.0,
     ) {
         let run = |level| {
             let mut pack = BendPack::NULL;
@@ -154,8 +159,10 @@ proptest! {
         angle in 1.5f32..4.8, turn in -0.2f32..0.2, heights in [0.5f32..1.2, 0.5f32..1.2], free in 1u8..16,
     ) {
         let (sin, cos) = ops::sin_cos(angle);
-        let p = [Vec3::ZERO, Vec3::Y, Vec3::new(-heights[0], 0.4, 0.0), Vec3::new(-cos * heights[1], 0.6, sin * heights[1])];
-        let mut plain = BendConstraint::new(HalfEdgeId(0), [0, 1, 2, 3], p, signed_dihedral(p[0], p[1], p[2], p[3]).unwrap());
+        let tips = [Vec3::new(-heights[0], 0.4, 0.0), Vec3::new(-cos * heights[1], 0.6, sin * heights[1])];
+        let p = [Vec3::ZERO, Vec3::Y, tips[0], tips[1]];
+        let start = signed_dihedral(p[0], p[1], p[2], p[3]).unwrap();
+        let mut plain = BendConstraint::new(HalfEdgeId(0), [0, 1, 2, 3], p, start);
         plain.set_target(plain.start + turn);
         let w = [0, 1, 2, 3].map(|i| if free & (1 << i) != 0 { 1.0 } else { 0.0 });
         let d = bend_corrections(p, w, plain.reach, plain.rest_medians).unwrap();

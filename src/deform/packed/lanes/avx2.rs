@@ -2,10 +2,11 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Point, PointOffset};
+use super::vector::Lanes;
+use crate::deform::packed::point::{Point, PointOffset};
 
 #[derive(Clone, Copy)]
-pub(in super::super) struct Avx2(__m256);
+pub struct Avx2(__m256);
 
 impl Lanes for Avx2 {
     const WIDTH: usize = 8;
@@ -75,10 +76,10 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, offsets: *const PointOffset) -> [Self; 4] {
         unsafe {
-            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
-            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
+            let (a, b) = (row(points, offsets), row(points, offsets.wrapping_add(1)));
+            let (c, d) = (row(points, offsets.wrapping_add(2)), row(points, offsets.wrapping_add(3)));
             let (xy, zw) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
             [Self(low(xy, xy_2)), Self(high(xy, xy_2)), Self(low(zw, zw_2)), Self(high(zw, zw_2))]
@@ -86,43 +87,43 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, offsets: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm256_unpacklo_ps(z.0, w.0), _mm256_unpackhi_ps(z.0, w.0));
-            put_row(points, places, low(xy, zw));
-            put_row(points, places.wrapping_add(1), high(xy, zw));
-            put_row(points, places.wrapping_add(2), low(xy_2, zw_2));
-            put_row(points, places.wrapping_add(3), high(xy_2, zw_2));
+            put_row(points, offsets, low(xy, zw));
+            put_row(points, offsets.wrapping_add(1), high(xy, zw));
+            put_row(points, offsets.wrapping_add(2), low(xy_2, zw_2));
+            put_row(points, offsets.wrapping_add(3), high(xy_2, zw_2));
         }
     }
 }
 
-/// Points 0 and 4 from `places` on, so that lanes end up in the order of the places.
+/// Reads points 0 and 4 from `offsets` on, so that lanes end up in the order of the offsets.
 #[inline(always)]
-unsafe fn row(points: *const Point, places: *const PointOffset) -> __m256 {
+unsafe fn row(points: *const Point, offsets: *const PointOffset) -> __m256 {
     unsafe {
-        let row = _mm256_castps128_ps256(_mm_loadu_ps((*places).of(points).cast()));
-        _mm256_insertf128_ps::<1>(row, _mm_loadu_ps((*places.wrapping_add(4)).of(points).cast()))
+        let row = _mm256_castps128_ps256(_mm_loadu_ps((*offsets).of(points).cast()));
+        _mm256_insertf128_ps::<1>(row, _mm_loadu_ps((*offsets.wrapping_add(4)).of(points).cast()))
     }
 }
 
-/// Writes points 0 and 4 from `places` on.
+/// Writes points 0 and 4 from `offsets` on.
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, places: *const PointOffset, row: __m256) {
+unsafe fn put_row(points: *mut Point, offsets: *const PointOffset, row: __m256) {
     unsafe {
-        _mm_storeu_ps((*places).of_mut(points).cast(), _mm256_castps256_ps128(row));
-        _mm_storeu_ps((*places.wrapping_add(4)).of_mut(points).cast(), _mm256_extractf128_ps::<1>(row));
+        _mm_storeu_ps((*offsets).of_mut(points).cast(), _mm256_castps256_ps128(row));
+        _mm_storeu_ps((*offsets.wrapping_add(4)).of_mut(points).cast(), _mm256_extractf128_ps::<1>(row));
     }
 }
 
-/// The lower two floats of each 128 bits of `a`, then those of `b`.
+/// Returns the lower two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn low(a: __m256, b: __m256) -> __m256 {
     unsafe { _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }
 }
 
-/// The upper two.
+/// Returns the upper two floats of each 128 bits of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn high(a: __m256, b: __m256) -> __m256 {
     unsafe { _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(a), _mm256_castps_pd(b))) }

@@ -2,10 +2,11 @@
 
 use core::arch::aarch64::*;
 
-use super::{Lanes, Point, PointOffset};
+use super::vector::Lanes;
+use crate::deform::packed::point::{Point, PointOffset};
 
 #[derive(Clone, Copy)]
-pub(in super::super) struct Neon(float32x4_t);
+pub struct Neon(float32x4_t);
 
 impl Lanes for Neon {
     const WIDTH: usize = 4;
@@ -74,23 +75,23 @@ impl Lanes for Neon {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, offsets: *const PointOffset) -> [Self; 4] {
         unsafe {
-            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
-            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
+            let (a, b) = (row(points, offsets), row(points, offsets.wrapping_add(1)));
+            let (c, d) = (row(points, offsets.wrapping_add(2)), row(points, offsets.wrapping_add(3)));
             let [x, y, z, w] = transpose([a, b, c, d]);
             [Self(x), Self(y), Self(z), Self(w)]
         }
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, offsets: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let [a, b, c, d] = transpose([x.0, y.0, z.0, w.0]);
-            put_row(points, places, a);
-            put_row(points, places.wrapping_add(1), b);
-            put_row(points, places.wrapping_add(2), c);
-            put_row(points, places.wrapping_add(3), d);
+            put_row(points, offsets, a);
+            put_row(points, offsets.wrapping_add(1), b);
+            put_row(points, offsets.wrapping_add(2), c);
+            put_row(points, offsets.wrapping_add(3), d);
         }
     }
 }
@@ -104,24 +105,24 @@ unsafe fn transpose([a, b, c, d]: [float32x4_t; 4]) -> [float32x4_t; 4] {
     }
 }
 
-/// The lower two floats of `a`, then those of `b`.
+/// Returns the lower two floats of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn low(a: float32x4_t, b: float32x4_t) -> float32x4_t {
     unsafe { vreinterpretq_f32_f64(vtrn1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }
 }
 
-/// The upper two.
+/// Returns the upper two floats of `a`, then those of `b`.
 #[inline(always)]
 unsafe fn high(a: float32x4_t, b: float32x4_t) -> float32x4_t {
     unsafe { vreinterpretq_f32_f64(vtrn2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))) }
 }
 
 #[inline(always)]
-unsafe fn row(points: *const Point, place: *const PointOffset) -> float32x4_t {
-    unsafe { vld1q_f32((*place).of(points).cast()) }
+unsafe fn row(points: *const Point, offset: *const PointOffset) -> float32x4_t {
+    unsafe { vld1q_f32((*offset).of(points).cast()) }
 }
 
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, place: *const PointOffset, row: float32x4_t) {
-    unsafe { vst1q_f32((*place).of_mut(points).cast(), row) }
+unsafe fn put_row(points: *mut Point, offset: *const PointOffset, row: float32x4_t) {
+    unsafe { vst1q_f32((*offset).of_mut(points).cast(), row) }
 }

@@ -1,9 +1,10 @@
 //! Two vectors side by side: while one waits for a division or a square root, the other goes on.
 
-use super::{Lanes, Point, PointOffset};
+use super::vector::Lanes;
+use crate::deform::packed::point::{Point, PointOffset};
 
 #[derive(Clone, Copy)]
-pub(in super::super) struct Pair<L>(L, L);
+pub struct Pair<L>(L, L);
 
 impl<L: Lanes> Lanes for Pair<L> {
     const WIDTH: usize = 2 * L::WIDTH;
@@ -75,19 +76,19 @@ impl<L: Lanes> Lanes for Pair<L> {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, offsets: *const PointOffset) -> [Self; 4] {
         unsafe {
-            let [x, y, z, w] = L::gather(points, places);
-            let [x_2, y_2, z_2, w_2] = L::gather(points, places.wrapping_add(L::WIDTH));
+            let [x, y, z, w] = L::gather(points, offsets);
+            let [x_2, y_2, z_2, w_2] = L::gather(points, offsets.wrapping_add(L::WIDTH));
             [Self(x, x_2), Self(y, y_2), Self(z, z_2), Self(w, w_2)]
         }
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, offsets: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
-            L::scatter(points, places, [x.0, y.0, z.0, w.0]);
-            L::scatter(points, places.wrapping_add(L::WIDTH), [x.1, y.1, z.1, w.1]);
+            L::scatter(points, offsets, [x.0, y.0, z.0, w.0]);
+            L::scatter(points, offsets.wrapping_add(L::WIDTH), [x.1, y.1, z.1, w.1]);
         }
     }
 }

@@ -1,9 +1,10 @@
 //! One float at a time: the twin that runs everywhere.
 
-use super::{Lanes, Point, PointOffset};
+use super::vector::Lanes;
+use crate::deform::packed::point::{Point, PointOffset};
 
 #[derive(Clone, Copy)]
-pub(in super::super) struct Scalar(f32);
+pub struct Scalar(f32);
 
 impl Lanes for Scalar {
     const WIDTH: usize = 1;
@@ -73,15 +74,15 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, offsets: *const PointOffset) -> [Self; 4] {
         // SAFETY: the caller's.
-        let Point([x, y, z, w]) = unsafe { *(*places).of(points) };
+        let Point([x, y, z, w]) = unsafe { *(*offsets).of(points) };
         [Self(x), Self(y), Self(z), Self(w)]
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, offsets: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         // SAFETY: the caller's.
-        unsafe { *(*places).of_mut(points) = Point([x.0, y.0, z.0, w.0]) }
+        unsafe { *(*offsets).of_mut(points) = Point([x.0, y.0, z.0, w.0]) }
     }
 }

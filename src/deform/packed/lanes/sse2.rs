@@ -2,10 +2,11 @@
 
 use core::arch::x86_64::*;
 
-use super::{Lanes, Point, PointOffset};
+use super::vector::Lanes;
+use crate::deform::packed::point::{Point, PointOffset};
 
 #[derive(Clone, Copy)]
-pub(in super::super) struct Sse2(__m128);
+pub struct Sse2(__m128);
 
 impl Lanes for Sse2 {
     const WIDTH: usize = 4;
@@ -74,10 +75,10 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn gather(points: *const Point, places: *const PointOffset) -> [Self; 4] {
+    unsafe fn gather(points: *const Point, offsets: *const PointOffset) -> [Self; 4] {
         unsafe {
-            let (a, b) = (row(points, places), row(points, places.wrapping_add(1)));
-            let (c, d) = (row(points, places.wrapping_add(2)), row(points, places.wrapping_add(3)));
+            let (a, b) = (row(points, offsets), row(points, offsets.wrapping_add(1)));
+            let (c, d) = (row(points, offsets.wrapping_add(2)), row(points, offsets.wrapping_add(3)));
             let (xy, zw) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
             let (xy_2, zw_2) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
             [
@@ -90,24 +91,24 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    unsafe fn scatter(points: *mut Point, places: *const PointOffset, [x, y, z, w]: [Self; 4]) {
+    unsafe fn scatter(points: *mut Point, offsets: *const PointOffset, [x, y, z, w]: [Self; 4]) {
         unsafe {
             let (xy, xy_2) = (_mm_unpacklo_ps(x.0, y.0), _mm_unpackhi_ps(x.0, y.0));
             let (zw, zw_2) = (_mm_unpacklo_ps(z.0, w.0), _mm_unpackhi_ps(z.0, w.0));
-            put_row(points, places, _mm_movelh_ps(xy, zw));
-            put_row(points, places.wrapping_add(1), _mm_movehl_ps(zw, xy));
-            put_row(points, places.wrapping_add(2), _mm_movelh_ps(xy_2, zw_2));
-            put_row(points, places.wrapping_add(3), _mm_movehl_ps(zw_2, xy_2));
+            put_row(points, offsets, _mm_movelh_ps(xy, zw));
+            put_row(points, offsets.wrapping_add(1), _mm_movehl_ps(zw, xy));
+            put_row(points, offsets.wrapping_add(2), _mm_movelh_ps(xy_2, zw_2));
+            put_row(points, offsets.wrapping_add(3), _mm_movehl_ps(zw_2, xy_2));
         }
     }
 }
 
 #[inline(always)]
-unsafe fn row(points: *const Point, place: *const PointOffset) -> __m128 {
-    unsafe { _mm_loadu_ps((*place).of(points).cast()) }
+unsafe fn row(points: *const Point, offset: *const PointOffset) -> __m128 {
+    unsafe { _mm_loadu_ps((*offset).of(points).cast()) }
 }
 
 #[inline(always)]
-unsafe fn put_row(points: *mut Point, place: *const PointOffset, row: __m128) {
-    unsafe { _mm_storeu_ps((*place).of_mut(points).cast(), row) }
+unsafe fn put_row(points: *mut Point, offset: *const PointOffset, row: __m128) {
+    unsafe { _mm_storeu_ps((*offset).of_mut(points).cast(), row) }
 }

@@ -2,15 +2,15 @@
 
 use bevy_math::Vec3;
 
-/// Vertices of a region at most: 128 kB of points, an eighth of a common second-level cache. Smaller regions would leave
-/// more lanes of packs empty.
+/// Largest number of vertices of a region: 128 kB of points, an eighth of a common second-level cache. Smaller regions
+/// would leave more lanes of packs empty.
 const REGION: usize = 8192;
-/// Vertices of a part that is not halved any further: a kilobyte of points.
+/// Largest number of vertices of a part that is not halved any further: a kilobyte of points.
 const PART: usize = 64;
 
 /// Order of the vertices of a film, and its regions.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Layout {
+pub struct Layout {
     /// Vertices in the order in which they lie in memory, region after region.
     pub order: Vec<u32>,
     /// Region of each vertex.
@@ -20,7 +20,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Halves of halves of vertices at `rest`, along their longest side.
+    /// Lays out the vertices at `rest`: halves of halves, along their longest side.
     pub fn new(rest: &[Vec3]) -> Self {
         let mut region_of = vec![0; rest.len()];
         let mut order: Vec<u32> = (0..rest.len() as u32).collect();
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_vertex_has_one_place_and_regions_follow_each_other() {
+    fn every_vertex_occurs_once_and_regions_follow_each_other() {
         for n in [0usize, 1, 63, 64, 65, 8192, 8193, 30_000] {
             let rest: Vec<Vec3> =
                 (0..n).map(|i| Vec3::new((i * 7919 % 10_007) as f32, (i * 104_729 % 9973) as f32, 0.0)).collect();
