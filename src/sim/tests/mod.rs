@@ -2,6 +2,7 @@
 //! bands.
 
 mod solvers;
+mod stains;
 
 use bevy_math::Vec3;
 
