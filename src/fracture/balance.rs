@@ -1,29 +1,31 @@
-//! When an edge gives way (VC 5.2).
+//! Decides when an edge gives way: the balance of contraction and binding (VC 5.2).
 
 use bevy_math::{Vec3, ops};
 
-use super::FilmForces;
+use super::forces::FilmForces;
 use crate::{
     film::{FilmMesh, HalfEdgeId, VertexId},
     settings::TearingSettings,
 };
 
-/// Steps of Newton's method for one prediction: each is closer by far, and a further look at an edge costs more.
+/// Steps of Newton's method in one prediction. Each step makes the prediction much later and so spares judging the edge
+/// again, which costs more than the step.
 const NEWTON_STEPS: usize = 3;
 
-/// Balance of an edge between two separated ends.
+/// Balance of forces at an edge between two separated vertices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
-    /// Largest cosine between the edge and a crack that ends at it; `None` at no tip.
+    /// Largest cosine between the edge and a crack that ends at one of its ends; `None` if no crack does.
     pub alignment: Option<f32>,
-    /// Contraction of its two faces.
+    /// Sum of the contractions of the edge's two faces.
     pull: f32,
-    /// What holds against that: its binding, less where it runs on from a crack's tip.
+    /// Binding of the edge, multiplied by beta if the edge continues a crack.
     hold: f32,
 }
 
 impl Balance {
-    /// Balance of `edge`; `None` where it is not between two faces or an end is attached.
+    /// Returns the balance of `edge`, or `None` if the edge cannot tear: an end is attached, or it does not lie between
+    /// two faces.
     pub fn new(mesh: &FilmMesh, forces: &FilmForces, settings: &TearingSettings, edge: HalfEdgeId) -> Option<Self> {
         let topology = &mesh.topology;
         let separated = |v: VertexId| !forces.is_attached(v);
@@ -36,26 +38,28 @@ impl Balance {
         Some(Self { alignment, pull, hold: if relieved { settings.beta * binding } else { binding } })
     }
 
-    /// Contraction over binding if the edge is to tear now.
-    pub fn overload(&self) -> Option<f32> {
-        // A binding that has decayed to nothing must still order by pull, not divide by zero.
+    /// Returns by which factor contraction exceeds binding, above 1, or `None` while the edge holds.
+    pub fn excess(&self) -> Option<f32> {
+        // Where the binding has decayed to 0 the excess must still order edges by their pull.
         (self.pull > self.hold).then(|| self.pull / self.hold.max(f32::MIN_POSITIVE))
     }
 
-    /// In how many steps `edge`, which holds now, can tear at the earliest, as long as nothing tears around it.
+    /// Returns the number of steps before which `edge`, which holds now, cannot tear, as long as nothing tears around
+    /// it.
     ///
-    /// `hold exp(-faces decay n) - pull - 2 growth n` is convex and falls with the steps n, so Newton's method comes
-    /// closer from the left and never goes beyond the root; what rounding may bring forward is taken off first.
+    /// `hold exp(-faces decay n) - pull - 2 growth n` is convex in the number of steps n and falls with it, so Newton's
+    /// method approaches the root from the left and never passes it. The error that rounding can cause is subtracted
+    /// first.
     pub fn steps_until_tear(&self, forces: &FilmForces, edge: HalfEdgeId) -> f64 {
         let rates = forces.predictions.rates;
         let (pull, hold) = (f64::from(self.pull), f64::from(self.hold));
-        let decay = f64::from(forces.bindings[edge.index()].torn_faces()) * rates.decay;
-        let growth = 2.0 * rates.growth;
+        let decay = f64::from(forces.bindings[edge.index()].torn_faces()) * rates.binding_decay;
+        let growth = 2.0 * rates.contraction_growth;
         if hold == f64::INFINITY || (growth == 0.0 && decay == 0.0) {
             return f64::INFINITY;
         }
         let rounding = f64::from(8.0 * f32::EPSILON);
-        let slack = rounding * (hold * (1.0 + forces.decay) + pull + 2.0 * forces.grown);
+        let slack = rounding * (hold * (1.0 + forces.binding_decay) + pull + 2.0 * forces.contraction_gained);
         let mut steps = 0.0;
         let mut left = hold;
         for _ in 0..NEWTON_STEPS {
@@ -74,8 +78,8 @@ impl Balance {
     }
 }
 
-/// Largest cosine between the edge and the direction of a crack that ends at one of its ends; `None` where
-/// no crack does. At rest, as all directions of this section.
+/// Returns the largest cosine between the edge and the direction of a crack that ends at one of its ends, or `None` if
+/// no crack does. All directions are those at rest.
 fn alignment(mesh: &FilmMesh, forces: &FilmForces, edge: HalfEdgeId) -> Option<f32> {
     let (a, b) = (mesh.topology.origin(edge), mesh.topology.target(edge));
     let at = |tip: VertexId, other: VertexId| forces.tip(tip).map(|crack| direction(mesh, tip, other).dot(crack));
@@ -85,7 +89,7 @@ fn alignment(mesh: &FilmMesh, forces: &FilmForces, edge: HalfEdgeId) -> Option<f
     }
 }
 
-/// Unit vector between two vertices at rest; zero where they coincide.
+/// Returns the unit vector from one vertex to another at rest; zero where they coincide.
 pub(super) fn direction(mesh: &FilmMesh, from: VertexId, to: VertexId) -> Vec3 {
     let rest = &mesh.geometry.rest_positions;
     (rest[to.index()] - rest[from.index()]).normalize_or_zero()

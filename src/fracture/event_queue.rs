@@ -1,46 +1,57 @@
-//! When to look at which vertex or edge again.
+//! Queues the elements of a film by the step in which an event at them is due.
 
-/// No place in the queue.
+/// Place of an element that is not in the queue.
 const NONE: u32 = u32::MAX;
 
-/// What predictions rest on: forces change at these rates, and these settings judge them. Others make all void.
+/// Numbers that predictions depend on: the rates at which forces change, and the settings that judge them. As soon as
+/// one of them changes, all predictions are void.
 pub(super) type Basis = [f64; 5];
 
-/// Elements of a film that may do something one day, each with a step before which it will not: the earliest that could
-/// be predicted. A step then looks only at those that are due, judges each exactly, and puts off what did nothing.
+/// A step in which an element is to be judged. Events are ordered by step, then by element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Event {
+    step: u32,
+    element: u32,
+}
+
+/// Events that may happen at the elements (vertices or edges) of a film, ordered by the step in which they are due: the
+/// earliest step in which the event can happen as far as it can be predicted.
 ///
-/// So that results do not depend on predictions, these may be too early but never too late.
+/// A step judges only the elements that are due, each exactly, and schedules those again at which nothing happened. A
+/// prediction may be too early but never too late, so results do not depend on predictions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EventQueue {
-    /// Steps counted.
+    /// Number of the current step, counted from the last restart.
     step: u32,
-    /// A binary heap of steps and elements, the earliest first. Each element is in it once at most.
-    queue: Vec<(u32, u32)>,
-    /// Place of each element in `queue`.
+    /// Binary heap with the earliest event first. Each element is in it at most once.
+    heap: Vec<Event>,
+    /// Place of each element in `heap`; `NONE` for an element that is not in it.
     places: Vec<u32>,
+    /// Numbers that the events were predicted with; `None` before the first prediction.
     basis: Option<Basis>,
-    /// Room for what is due.
+    /// Buffer of the elements that are due.
     due: Vec<u32>,
-    /// How many elements were due so far.
+    /// Number of elements that have been due so far.
     #[cfg(test)]
-    pub looks: u64,
+    pub judged: u64,
 }
 
 impl EventQueue {
-    /// Counts a step.
+    /// Begins the next step.
     pub fn advance(&mut self) {
         self.step = self.step.saturating_add(1);
     }
 
-    /// Whether predictions for this many elements on this basis are at hand.
-    pub fn rests_on(&self, basis: Basis, elements: usize) -> bool {
+    /// Returns whether the queue holds predictions for `elements` elements that were made with `basis`.
+    pub fn is_valid(&self, basis: Basis, elements: usize) -> bool {
         self.basis == Some(basis) && self.places.len() == elements && self.step < u32::MAX
     }
 
-    /// Begins anew on a new basis: everything in `all` is due now.
+    /// Empties the queue, for predictions with a new basis, and returns the elements of `all` as due. The list is to be
+    /// returned by [`EventQueue::give_back`].
     pub fn restart(&mut self, basis: Basis, elements: usize, all: impl Iterator<Item = u32>) -> Vec<u32> {
         self.step = 0;
-        self.queue.clear();
+        self.heap.clear();
         self.places.clear();
         self.places.resize(elements, NONE);
         self.basis = Some(basis);
@@ -50,11 +61,12 @@ impl EventQueue {
         due
     }
 
-    /// Takes out all that is due. To be given back, for its room.
+    /// Removes all elements that are due from the queue and returns them. The list is to be returned by
+    /// [`EventQueue::give_back`].
     pub fn take_due(&mut self) -> Vec<u32> {
         let mut due = core::mem::take(&mut self.due);
         due.clear();
-        while let Some(&(step, element)) = self.queue.first()
+        while let Some(&Event { step, element }) = self.heap.first()
             && step <= self.step
         {
             self.remove_first();
@@ -63,89 +75,91 @@ impl EventQueue {
         due
     }
 
-    /// Takes back the room of [`EventQueue::take_due`] or [`EventQueue::restart`].
+    /// Takes back the list of [`EventQueue::take_due`] or [`EventQueue::restart`], whose memory the next step uses.
     pub fn give_back(&mut self, due: Vec<u32>) {
         #[cfg(test)]
         {
-            self.looks += due.len() as u64;
+            self.judged += due.len() as u64;
         }
         self.due = due;
     }
 
-    /// Looks at `element` next time, whatever was predicted. Nothing to do before the first predictions.
-    pub fn touch(&mut self, element: u32) {
-        self.put(element, 0);
+    /// Makes `element` due the next time that due elements are taken, whatever was predicted. Does nothing before the
+    /// first prediction: then all elements are due in any case.
+    pub fn make_due(&mut self, element: u32) {
+        self.put(Event { step: 0, element });
     }
 
-    /// Looks at `element` again after so many steps, at the next at the earliest; not at all if they are more than can
-    /// be counted.
-    pub fn put_off(&mut self, element: u32, steps: f64) {
-        // Also for NaN: what cannot be predicted is looked at in every step.
+    /// Makes `element` due after `steps` steps, rounded up, but not before the next one. An element whose step is too
+    /// large to be counted is not queued.
+    pub fn schedule(&mut self, element: u32, steps: f64) {
+        // NaN counts as 1: an element whose event cannot be predicted is judged in every step.
         let steps = if steps > 1.0 { steps.ceil() } else { 1.0 };
         let step = f64::from(self.step) + steps;
         if step < f64::from(u32::MAX) {
-            self.put(element, step as u32);
+            self.put(Event { step: step as u32, element });
         }
     }
 
-    fn put(&mut self, element: u32, step: u32) {
-        let Some(&place) = self.places.get(element as usize) else { return };
+    /// Queues `event`, in place of an event at the same element.
+    fn put(&mut self, event: Event) {
+        let Some(&place) = self.places.get(event.element as usize) else { return };
         let place = if place == NONE {
-            self.queue.push((step, element));
-            self.queue.len() - 1
+            self.heap.push(event);
+            self.heap.len() - 1
         } else {
-            self.queue[place as usize].0 = step;
+            self.heap[place as usize].step = event.step;
             place as usize
         };
-        let place = self.sift_up(place, (step, element));
-        self.sift_down(place, (step, element));
+        let place = self.sift_up(place, event);
+        self.sift_down(place, event);
     }
 
     fn remove_first(&mut self) {
-        let Some(last) = self.queue.pop() else { return };
-        if let Some(&(_, first)) = self.queue.first() {
-            self.places[first as usize] = NONE;
+        let Some(last) = self.heap.pop() else { return };
+        if let Some(first) = self.heap.first() {
+            self.places[first.element as usize] = NONE;
             self.sift_down(0, last);
         } else {
-            self.places[last.1 as usize] = NONE;
+            self.places[last.element as usize] = NONE;
         }
     }
 
-    /// Moves `entry` from `place` towards the front, as far as it goes. Gives where it is then.
-    fn sift_up(&mut self, mut place: usize, entry: (u32, u32)) -> usize {
+    /// Moves `event` from `place` towards the front until no later event is before it. Returns its new place.
+    fn sift_up(&mut self, mut place: usize, event: Event) -> usize {
         while place > 0 {
             let parent = (place - 1) / 2;
-            if self.queue[parent] <= entry {
+            if self.heap[parent] <= event {
                 break;
             }
-            self.set(place, self.queue[parent]);
+            self.set(place, self.heap[parent]);
             place = parent;
         }
-        self.set(place, entry);
+        self.set(place, event);
         place
     }
 
-    /// Moves `entry` from `place` away from the front, as far as it goes.
-    fn sift_down(&mut self, mut place: usize, entry: (u32, u32)) {
+    /// Moves `event` from `place` towards the end until no earlier event is after it.
+    fn sift_down(&mut self, mut place: usize, event: Event) {
         loop {
             let child = 2 * place + 1;
-            let Some(&left) = self.queue.get(child) else { break };
-            let (child, first) = match self.queue.get(child + 1) {
+            let Some(&left) = self.heap.get(child) else { break };
+            let (child, first) = match self.heap.get(child + 1) {
                 Some(&right) if right < left => (child + 1, right),
                 _ => (child, left),
             };
-            if entry <= first {
+            if event <= first {
                 break;
             }
             self.set(place, first);
             place = child;
         }
-        self.set(place, entry);
+        self.set(place, event);
     }
 
-    fn set(&mut self, place: usize, entry: (u32, u32)) {
-        self.queue[place] = entry;
-        self.places[entry.1 as usize] = place as u32;
+    fn set(&mut self, place: usize, event: Event) {
+        self.heap[place] = event;
+        self.places[event.element as usize] = place as u32;
     }
 }
 
@@ -156,10 +170,13 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Against a list that is searched.
+        /// Compares the queue with a list that is searched.
         #[test]
-        fn what_is_due_is_given_once_and_in_time(
-            events in prop::collection::vec((0u32..20, prop_oneof![Just(None), (0u32..15).prop_map(Some)], any::<bool>()), 1..300)
+        fn each_element_is_due_once_and_in_its_step(
+            events in prop::collection::vec(
+                (0u32..20, prop_oneof![Just(None), (0u32..15).prop_map(Some)], any::<bool>()),
+                1..300,
+            )
         ) {
             let mut queue = EventQueue::default();
             queue.restart([0.0; 5], 20, 0..0);
@@ -167,11 +184,11 @@ mod tests {
             for (element, steps, advance) in events {
                 match steps {
                     Some(steps) => {
-                        queue.put_off(element, f64::from(steps) - 0.5);
+                        queue.schedule(element, f64::from(steps) - 0.5);
                         expected[element as usize] = Some(step + steps.max(1));
                     }
                     None => {
-                        queue.touch(element);
+                        queue.make_due(element);
                         expected[element as usize] = Some(0);
                     }
                 }
@@ -187,22 +204,22 @@ mod tests {
                     expected[e as usize] = None;
                 }
                 queue.give_back(due);
-                prop_assert_eq!(queue.queue.len(), expected.iter().flatten().count());
+                prop_assert_eq!(queue.heap.len(), expected.iter().flatten().count());
             }
         }
     }
 
     #[test]
-    fn what_never_comes_takes_no_room_and_what_is_unknown_comes_next() {
+    fn events_that_never_come_are_not_queued_and_unpredictable_ones_are_due_next() {
         let mut queue = EventQueue::default();
-        queue.touch(3);
+        queue.make_due(3);
         assert!(queue.take_due().is_empty(), "nothing is predicted yet");
         queue.restart([0.0; 5], 4, 0..0);
-        queue.put_off(0, f64::INFINITY);
-        queue.put_off(1, 1e10);
-        assert!(queue.queue.is_empty());
-        queue.put_off(2, f64::NAN);
-        queue.put_off(3, -5.0);
+        queue.schedule(0, f64::INFINITY);
+        queue.schedule(1, 1e10);
+        assert!(queue.heap.is_empty());
+        queue.schedule(2, f64::NAN);
+        queue.schedule(3, -5.0);
         assert!(queue.take_due().is_empty());
         queue.advance();
         assert_eq!(queue.take_due(), [2, 3]);

@@ -1,59 +1,97 @@
-//! Forces in the film (VC 3.3).
+//! Keeps the forces in a film and its fracture state (VC 3.3).
 //!
-//! With age every vertex loses adhesion at one rate and every face gains contraction at one rate (VC 5.1, 5.2). Both are
-//! kept once for the whole film; what is stored of a vertex or face is only how it differs from that.
+//! With age every vertex loses adhesion at one rate and every face gains contraction at one rate (VC 5.1, 5.2). Both
+//! amounts are counted once for the whole film; what is stored for a vertex or a face is only the difference from them.
 
 use bevy_math::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{adhesion_field, binding::Binding, predictions::Predictions, sigmoid};
+use super::{adhesion::adhesion_field, binding::Binding, predictions::Predictions, sigmoid::sigmoid};
 use crate::{
-    film::{FaceId, FilmMesh, FilmPieces, HalfEdgeId, InvariantError, LoosePieces, Topology, VertexId},
+    film::{FaceId, FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId},
     settings::CoatingSettings,
 };
 
-/// Keeps the draw of weak edges apart from that of adhesion.
+/// Stream of the random numbers that choose weak edges. It keeps them independent of those that draw adhesion.
 const WEAK_EDGE_STREAM: u64 = 1;
 
-/// Forces and fracture state of a film, in units of the initial contraction.
+/// Forces and fracture state of one film (VC 3.3). Every force is in units of the initial contraction.
 ///
-/// After changing one of the public fields by hand, call [`FilmForces::touch_all`]; the methods that set forces see to
-/// that themselves.
+/// The methods that set a force make the next step judge the elements that it concerns. After changing a public field
+/// by hand, call [`FilmForces::touch_all`]. Methods that take a handle panic if the film has no such element.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmMesh, HalfEdgeId, VertexId},
+///     fracture::FilmForces,
+///     settings::CoatingSettings,
+/// };
+/// use bevy_math::Vec3;
+///
+/// // Two triangles that share the edge from vertex 1 to vertex 2.
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let shared = HalfEdgeId(1);
+///
+/// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+/// forces.set_adhesion(VertexId(0), f32::INFINITY); // a rivet: the film never separates here
+/// forces.set_binding(&mesh.topology, shared, 0.5); // a scratch: the film tears here first
+///
+/// assert!(forces.is_attached(VertexId(0)));
+/// let (pull, binding) = forces.pull_and_binding(&mesh.topology, shared).expect("two faces share it");
+/// assert_eq!((pull, binding), (2.0, 0.5));
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmForces {
-    /// Age at which each vertex separated; infinite while attached.
+    /// Age at which each vertex separated; infinite while it is attached.
     pub separated_age: Vec<f32>,
-    /// Unit direction of the crack that ends at each vertex, at rest; zero where none does.
+    /// Unit vector along which a crack ends at each vertex, in rest positions; zero where no crack ends.
     pub tips: Vec<Vec3>,
-    /// Loose pieces that are too large to fall.
+    /// Pieces of the film that hang loose but are too large to fall: no vertex of theirs is attached.
     pub loose: LoosePieces,
-    /// Number of torn edges so far.
+    /// Number of edges that have torn so far.
     pub torn_edges: u32,
-    /// Number of separations so far.
+    /// Number of vertices that have separated so far, duplicates not counted.
     pub separations: u32,
-    /// Adhesion of each vertex, but for `adhesion_lost`; where that is more, nothing is left.
+    /// Adhesion of each vertex plus `adhesion_lost`. Adhesion is 0 where `adhesion_lost` is larger.
     pub(super) adhesion_bases: Vec<f32>,
     /// Adhesion that every vertex has lost so far.
     pub(super) adhesion_lost: f64,
-    /// Contraction of each face, but for `grown`.
+    /// Contraction of each face minus `contraction_gained`.
     pub(super) contraction_bases: Vec<f32>,
     /// Contraction that every face has gained so far.
-    pub(super) grown: f64,
-    /// Binding of each edge, at its lower half-edge.
+    pub(super) contraction_gained: f64,
+    /// Binding of each edge, at the index of its lower half-edge.
     pub(super) bindings: Vec<Binding>,
     /// Decay of binding so far: the sum of rate times age.
-    pub(super) decay: f64,
-    /// Sigmoid of each half-edge's rest dihedral (VC eq. 4); 0 at the open border, which exerts no force.
+    pub(super) binding_decay: f64,
+    /// Sigmoid of the rest dihedral angle of each half-edge (VC eq. 4); 0 at the open border, which exerts no force.
     pub(super) bend_weights: Vec<f32>,
-    /// The gamma that `bend_weights` was computed with.
+    /// Gamma that `bend_weights` was computed with.
     pub(super) gamma: f32,
+    /// Predicted events and connected pieces.
     pub(super) predictions: Predictions,
 }
 
 impl FilmForces {
-    /// The forces of a fresh film. `seed` draws the adhesion and the weak edges.
+    /// Creates the forces of a fresh film, on which every vertex is attached.
+    ///
+    /// `seed` draws the adhesion of each vertex ([`adhesion_field`]) and the weak edges, each inner edge with the
+    /// probability [`weak_probability`](crate::settings::TearingSettings::weak_probability) (VC 5.2). The same mesh,
+    /// settings and seed give the same bits.
+    ///
+    /// ```
+    /// use bevy_coating::{film::FilmMesh, fracture::FilmForces, settings::CoatingSettings};
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// assert!(mesh.topology.all_vertices().all(|v| forces.is_attached(v)));
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn new(mesh: &FilmMesh, settings: &CoatingSettings, seed: u64) -> Self {
         let topology = &mesh.topology;
         let mut forces = Self {
@@ -81,7 +119,28 @@ impl FilmForces {
         }
     }
 
-    /// Recomputes what depends on gamma; does nothing when it has not changed.
+    /// Sets the steepness of the [`sigmoid`](super::sigmoid) in the bending force, per radian (VC eq. 4).
+    ///
+    /// Computes the weight of every half-edge again if `gamma` has changed and does nothing otherwise.
+    /// [`age_forces`](super::age_forces) calls this in every step with the gamma of its settings.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FilmMesh, VertexId},
+    ///     fracture::{FilmForces, bending_force},
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// // Two triangles that meet in a ridge.
+    /// let corners = vec![Vec3::NEG_X, Vec3::new(0.0, -1.0, 1.0), Vec3::new(0.0, 1.0, 1.0), Vec3::X];
+    /// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+    /// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// let before = bending_force(&mesh, &forces, VertexId(0), 1.0);
+    /// forces.set_gamma(&mesh, 4.0);
+    /// assert!(bending_force(&mesh, &forces, VertexId(0), 1.0) > before, "ridges are lifted more");
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn set_gamma(&mut self, mesh: &FilmMesh, gamma: f32) {
         if self.gamma == gamma {
             return;
@@ -94,66 +153,108 @@ impl FilmForces {
         }));
     }
 
-    /// Whether `v` still holds on to the metal.
+    /// Returns whether `v` is still attached to the metal.
     #[inline]
     pub fn is_attached(&self, v: VertexId) -> bool {
         self.separated_age[v.index()] == f32::INFINITY
     }
 
-    /// Adhesion of `v` to the metal: 0 or more.
+    /// Returns the adhesion of `v` to the metal, 0 or more (VC 5.1).
     #[inline]
     pub fn adhesion(&self, v: VertexId) -> f32 {
         (self.adhesion_bases[v.index()] - self.adhesion_lost as f32).max(0.0)
     }
 
-    /// Sets the adhesion of `v` now; it goes on falling with age. Infinite: `v` never separates.
+    /// Sets the present adhesion of `v`, which goes on falling with age. With an infinite adhesion `v` never separates.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FilmMesh, VertexId},
+    ///     fracture::FilmForces,
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// forces.set_adhesion(VertexId(2), 0.25);
+    /// assert_eq!(forces.adhesion(VertexId(2)), 0.25);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn set_adhesion(&mut self, v: VertexId, adhesion: f32) {
         self.adhesion_bases[v.index()] = adhesion + self.adhesion_lost as f32;
-        self.predictions.separations.touch(v.0);
+        self.predictions.separations.make_due(v.0);
     }
 
-    /// Contraction of `f`.
+    /// Returns the contraction of `f` (VC 3.3).
     #[inline]
     pub fn contraction(&self, f: FaceId) -> f32 {
-        self.contraction_bases[f.index()] + self.grown as f32
+        self.contraction_bases[f.index()] + self.contraction_gained as f32
     }
 
-    /// Sets the contraction of `f` now; it goes on growing with age.
+    /// Sets the present contraction of `f`, which goes on growing with age.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FaceId, FilmMesh},
+    ///     fracture::FilmForces,
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// assert_eq!(forces.contraction(FaceId(0)), 1.0);
+    /// forces.set_contraction(&mesh.topology, FaceId(0), 1.5);
+    /// assert_eq!(forces.contraction(FaceId(0)), 1.5);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn set_contraction(&mut self, topology: &Topology, f: FaceId, contraction: f32) {
-        self.contraction_bases[f.index()] = contraction - self.grown as f32;
+        self.contraction_bases[f.index()] = contraction - self.contraction_gained as f32;
         for h in f.half_edges() {
-            self.predictions.separations.touch(topology.origin(h).0);
-            self.predictions.tears.touch(topology.edge(h).0);
+            self.predictions.separations.make_due(topology.origin(h).0);
+            self.predictions.tears.make_due(topology.edge(h).0);
         }
     }
 
-    /// Leaves the share `kept` of the contraction of `f`.
-    pub(super) fn relieve(&mut self, f: FaceId, kept: f32) {
-        self.contraction_bases[f.index()] = self.contraction(f) * kept - self.grown as f32;
-    }
-
-    /// Binding of the edge of `h`; of an edge that has torn, the last that it had.
+    /// Returns the binding of the edge of `h` (VC 3.3). Once the edge has torn, returns the last binding that it had.
     #[inline]
     pub fn binding(&self, topology: &Topology, h: HalfEdgeId) -> f32 {
-        self.bindings[topology.edge(h).index()].force(self.decay)
+        self.bindings[topology.edge(h).index()].force(self.binding_decay)
     }
 
-    /// Sets the binding of the edge of `h` now; it goes on decaying next to torn edges. Infinite: it never tears.
+    /// Sets the present binding of the edge of `h`, which goes on decaying beside torn edges. With an infinite binding
+    /// the edge never tears.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FilmMesh, HalfEdgeId},
+    ///     fracture::FilmForces,
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// forces.set_binding(&mesh.topology, HalfEdgeId(0), 3.0);
+    /// assert_eq!(forces.binding(&mesh.topology, HalfEdgeId(0)), 3.0);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn set_binding(&mut self, topology: &Topology, h: HalfEdgeId, binding: f32) {
         let edge = topology.edge(h);
-        self.bindings[edge.index()].set_force(binding, self.decay);
-        self.predictions.tears.touch(edge.0);
+        self.bindings[edge.index()].set_force(binding, self.binding_decay);
+        self.predictions.tears.make_due(edge.0);
     }
 
-    /// Direction of the crack that ends at `v`.
+    /// Returns the unit vector along which a crack ends at `v`, in rest positions, or `None` if no crack ends there.
     #[inline]
     pub fn tip(&self, v: VertexId) -> Option<Vec3> {
         let d = self.tips[v.index()];
         (d != Vec3::ZERO).then_some(d)
     }
 
-    /// Contraction that pulls at the edge of `h`, and the binding that holds it (VC 5.2); `None` when the
-    /// edge is no longer, or never was, between two faces.
+    /// Returns the sum of the contractions of the two faces at the edge of `h`, and the binding that holds them
+    /// together (VC 5.2). Returns `None` if the edge is not between two bound faces.
     #[inline]
     pub fn pull_and_binding(&self, topology: &Topology, h: HalfEdgeId) -> Option<(f32, f32)> {
         let twin = topology.bound_twin(h)?;
@@ -161,56 +262,25 @@ impl FilmForces {
         Some((pull, self.binding(topology, h)))
     }
 
-    /// Has every vertex, edge and face looked at in the next step, whatever was predicted.
+    /// Discards all predictions, so that the next step judges every vertex and every edge. Needed after a public field
+    /// was changed by hand.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FilmMesh, VertexId},
+    ///     fracture::FilmForces,
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut forces = FilmForces::new(&mesh, &CoatingSettings::default(), 7);
+    /// forces.separated_age.fill(0.0);
+    /// forces.touch_all();
+    /// assert!(!forces.is_attached(VertexId(0)));
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn touch_all(&mut self) {
         self.predictions = Predictions { rates: self.predictions.rates, ..Predictions::default() };
-    }
-
-    /// Finds out which faces hang together, where that is not known.
-    pub(super) fn find_pieces(&mut self, topology: &Topology) {
-        if !self.predictions.pieces.fits(topology) {
-            self.predictions.pieces = FilmPieces::new(topology, |v| self.separated_age[v.index()] == f32::INFINITY);
-            self.loose = LoosePieces::default();
-        }
-    }
-
-    /// Copies all that belongs to `v` to a new vertex at the end. A split vertex is no crack tip.
-    pub(super) fn duplicate_vertex(&mut self, v: VertexId) {
-        self.adhesion_bases.push(self.adhesion_bases[v.index()]);
-        self.separated_age.push(self.separated_age[v.index()]);
-        self.tips[v.index()] = Vec3::ZERO;
-        self.tips.push(Vec3::ZERO);
-    }
-
-    /// Checks the forces against their film: one entry an element; decay of binding as torn edges have it; pieces as they
-    /// are found from scratch.
-    ///
-    /// # Errors
-    /// The first [`InvariantError`] found.
-    pub fn validate(&self, topology: &Topology) -> Result<(), InvariantError> {
-        let (vertices, half_edges) = (topology.vertex_count(), topology.half_edge_count());
-        for (name, found, expected) in [
-            ("adhesion", self.adhesion_bases.len(), vertices),
-            ("separated_age", self.separated_age.len(), vertices),
-            ("tips", self.tips.len(), vertices),
-            ("contraction", self.contraction_bases.len(), topology.face_count()),
-            ("bindings", self.bindings.len(), half_edges),
-            ("bend_weights", self.bend_weights.len(), half_edges),
-        ] {
-            if found != expected {
-                return Err(InvariantError::ArrayLength(name));
-            }
-        }
-        for h in topology.all_edges() {
-            let decaying = topology.torn_faces(h);
-            if self.bindings[h.index()].torn_faces() != decaying {
-                return Err(InvariantError::Decay(h));
-            }
-        }
-        let known = self.predictions.pieces.fits(topology);
-        if known && !self.predictions.pieces.agrees(topology, &self.loose, |v| self.is_attached(v)) {
-            return Err(InvariantError::Pieces);
-        }
-        Ok(())
     }
 }

@@ -1,4 +1,7 @@
-//! Static simulation: fracture decided by balance of forces (VC 5).
+//! Decides from the balance of forces where the film separates, tears and comes off (VC 5).
+//!
+//! This is the static half of the method; [`deform`](crate::deform) is the other. The stages of one step, in their
+//! order:
 //!
 //! | stage | function | source |
 //! |---|---|---|
@@ -7,20 +10,25 @@
 //! | tearing | [`tear`] | VC 5.2 |
 //! | stripping | [`strip`] | VC 5.3 |
 //!
-//! Every stage is a function on borrowed parts and writes what it did into [`FilmChanges`]. Each does work in proportion
-//! to what happens, not to the film's size: what ages everywhere at one rate is kept once ([`FilmForces`]), what will
-//! happen is predicted, and pieces are followed edit by edit.
+//! Every stage is a function that borrows the parts of a film and records in [`FilmChanges`] what it did. Its cost
+//! grows with the number of events, not with the size of the film: a change that is the same everywhere is stored once
+//! ([`FilmForces`]), separations and tears are predicted and queued by the step in which they can happen first, and
+//! connected pieces are updated edit by edit.
 
 mod adhesion;
 mod aging;
 mod balance;
 mod binding;
+mod edit;
 mod event_queue;
 mod forces;
 mod predictions;
+mod scratch;
 mod separation;
+mod sigmoid;
 mod stripping;
 mod tearing;
+mod validate;
 
 #[cfg(test)]
 mod tests;
@@ -28,9 +36,11 @@ mod tests;
 pub use adhesion::adhesion_field;
 pub use aging::age_forces;
 pub use forces::FilmForces;
-pub use separation::{bending_force, separate, separation_age, sigmoid};
+pub use scratch::FractureScratch;
+pub use separation::{bending_force, separate, separation_age};
+pub use sigmoid::sigmoid;
 pub use stripping::strip;
-pub use tearing::{FractureScratch, tear};
+pub use tearing::tear;
 
 #[cfg(doc)]
 use crate::film::FilmChanges;

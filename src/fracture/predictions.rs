@@ -1,31 +1,34 @@
-//! What spares a step the look at the whole film.
+//! Keeps what lets a step judge only a few elements of the film: predicted events and connected pieces.
 
 use super::event_queue::{Basis, EventQueue};
 use crate::film::FilmPieces;
 
-/// By how much forces change in a step.
+/// Change of the forces in one step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rates {
-    /// Adhesion that is lost everywhere.
-    pub fall: f64,
-    /// Adhesion that is lost on top of that where it is wet; 0 while all is dry.
-    pub wet_fall: f64,
-    /// Contraction that is gained.
-    pub growth: f64,
-    /// Decay of binding, for each face with a torn edge: the exponent.
-    pub decay: f64,
+    /// Adhesion that every vertex loses.
+    pub adhesion_loss: f64,
+    /// Adhesion that a wet vertex loses in addition; 0 while the whole film is dry.
+    pub wet_adhesion_loss: f64,
+    /// Contraction that every face gains.
+    pub contraction_growth: f64,
+    /// Exponent by which the binding of an edge decays, for each of its faces that has a torn edge.
+    pub binding_decay: f64,
 }
 
-/// What the stages know beyond the forces themselves: when to look at what again, and which faces hang together. All of
-/// it can be found again by a look at the whole film, and nothing that happens depends on how it was found; so any two
-/// are equal.
+/// Predicted events and connected pieces of a film.
+///
+/// They only save work: all of this can be computed from the film and its forces again, and no result depends on it.
+/// Therefore any two values compare as equal, so that films are compared by their state alone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Predictions {
+    /// Change of the forces in the last step.
     pub rates: Rates,
-    /// Of attached vertices.
+    /// Predicted separations; the elements are vertices.
     pub separations: EventQueue,
-    /// Of edges whose ends have separated, by lower half-edge.
+    /// Predicted tears; the elements are the lower half-edges of edges.
     pub tears: EventQueue,
+    /// Connected pieces of the film.
     pub pieces: FilmPieces,
 }
 
@@ -36,21 +39,21 @@ impl PartialEq for Predictions {
 }
 
 impl Predictions {
-    /// Counts a step in which forces change by `rates`.
+    /// Begins the next step, in which forces change by `rates`.
     pub fn advance(&mut self, rates: Rates) {
         self.rates = rates;
         self.separations.advance();
         self.tears.advance();
     }
 
-    /// Basis of predicted separations.
-    pub fn basis_of_separations(&self, gain: f32, gamma: f32) -> Basis {
-        let Rates { fall, wet_fall, growth, .. } = self.rates;
-        [fall, wet_fall, growth, f64::from(gain), f64::from(gamma)]
+    /// Returns the numbers that predicted separations depend on.
+    pub fn separation_basis(&self, gain: f32, gamma: f32) -> Basis {
+        let Rates { adhesion_loss, wet_adhesion_loss, contraction_growth, .. } = self.rates;
+        [adhesion_loss, wet_adhesion_loss, contraction_growth, f64::from(gain), f64::from(gamma)]
     }
 
-    /// Basis of predicted tears.
-    pub fn basis_of_tears(&self, alpha: f32, beta: f32) -> Basis {
-        [self.rates.growth, self.rates.decay, f64::from(alpha), f64::from(beta), 0.0]
+    /// Returns the numbers that predicted tears depend on.
+    pub fn tear_basis(&self, alpha: f32, beta: f32) -> Basis {
+        [self.rates.contraction_growth, self.rates.binding_decay, f64::from(alpha), f64::from(beta), 0.0]
     }
 }

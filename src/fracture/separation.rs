@@ -1,31 +1,53 @@
-//! Separation: the film lets go of the metal where bending force exceeds adhesion (VC 5.1).
+//! Separates the film from the metal where bending force exceeds adhesion (VC 5.1, eq. 4).
 
-use core::f32::consts::PI;
-
-use bevy_math::ops;
-
-use super::FilmForces;
+use super::forces::FilmForces;
 use crate::{
     film::{FilmChanges, FilmMesh, VertexId},
     settings::CoatingSettings,
 };
 
-/// S(phi) of VC eq. 4: how strongly an edge of dihedral angle `phi` (radians, pi when flat) lifts the film,
-/// in (0, 1); convex edges more than concave ones, the more so the larger `gamma`.
-pub fn sigmoid(phi: f32, gamma: f32) -> f32 {
-    1.0 / (1.0 + ops::exp(-gamma * (phi - PI)))
-}
-
-/// Sum of the bending forces F_B = k T S(phi) on `v` (VC eq. 4): each bound edge opposite `v` in a face of
-/// its one-ring exerts one, border and torn edges none. `gain` is k.
+/// Returns the sum of the bending forces F_B = k T S(phi) on `v` (VC 5.1, eq. 4), in units of the initial contraction.
+///
+/// Each bound edge opposite `v` in a face of its one-ring exerts one: T is the contraction of that face and S the
+/// [`sigmoid`](super::sigmoid) of the edge's dihedral angle at rest. Border edges and torn edges exert none. `gain` is
+/// k; at its default of 1/3 a vertex of a flat film with six neighbours feels exactly T.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmMesh, VertexId},
+///     fracture::{FilmForces, bending_force},
+///     settings::CoatingSettings,
+/// };
+/// use bevy_math::Vec3;
+///
+/// // Two flat triangles: vertex 0 lies opposite the edge that they share.
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let settings = CoatingSettings::default();
+/// let forces = FilmForces::new(&mesh, &settings, 7);
+/// let force = bending_force(&mesh, &forces, VertexId(0), settings.bending.gain);
+/// assert!((force - 1.0 / 6.0).abs() < 1e-6, "k T S(pi) = 1/3 * 1 * 1/2");
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 #[inline]
 pub fn bending_force(mesh: &FilmMesh, forces: &FilmForces, v: VertexId, gain: f32) -> f32 {
     OneRing::new(mesh, forces, v, gain).force
 }
 
-/// The age at which a vertex of an untouched one-ring separates, as the root of the linear equation
-/// `lift (T0 + growth a) = adhesion - decay a`: `lift` is the sum of k S(phi) over the one-ring. At least 0;
-/// infinite if it never does (nothing lifts it, not even without adhesion).
+/// Returns the age at which a vertex separates if nothing tears around it: 0 or more, or infinity if it never does.
+///
+/// The result is the root a of the linear equation `lift` (`contraction` + `growth` a) = `adhesion` - `decay` a.
+/// `lift` is the sum of k S(phi) over the one-ring, that is the [`bending_force`] for a contraction of 1. `contraction`
+/// and `adhesion` are those of the fresh film, as forces; `growth` and `decay` are what they gain and lose per unit
+/// age.
+///
+/// ```
+/// use bevy_coating::fracture::separation_age;
+///
+/// assert_eq!(separation_age(1.0, 1.0, 1.0, 2.0, 1.0), 0.5);
+/// assert_eq!(separation_age(3.0, 1.0, 1.0, 2.0, 1.0), 0.0, "separates at once");
+/// assert_eq!(separation_age(0.0, 1.0, 1.0, 2.0, 1.0), f32::INFINITY, "nothing lifts it");
+/// ```
 pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, decay: f32) -> f32 {
     if lift * contraction > adhesion {
         return 0.0;
@@ -34,11 +56,36 @@ pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, d
     if lift <= 0.0 || closing <= 0.0 { f32::INFINITY } else { (adhesion - lift * contraction) / closing }
 }
 
-/// Separates every attached vertex on which the sum of bending forces exceeds its adhesion; it never attaches
-/// again. `age` is the film's age at the end of this step.
+/// Separates every attached vertex on which the sum of the bending forces exceeds its adhesion (VC 5.1, eq. 4).
 ///
-/// Looks only at vertices that may be due. Adhesion and bending force are linear in age while nothing tears, and what
-/// tears or falls only ever takes bending force away, so a prediction can be too early but never too late.
+/// A vertex that has separated never attaches again. `age` is the age of the film at the end of this step; it is stored
+/// in [`FilmForces::separated_age`]. The vertices are appended to [`FilmChanges::separated`] in the order of their ids.
+///
+/// Only vertices whose predicted separation is due are judged. Adhesion and bending force are linear in age while
+/// nothing tears, and a tear or a fall can only reduce the bending force, so a prediction can be too early but never
+/// too late.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmChanges, FilmMesh, VertexId},
+///     fracture::{FilmForces, separate},
+///     settings::CoatingSettings,
+/// };
+/// use bevy_math::Vec3;
+///
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let settings = CoatingSettings::default();
+/// let mut forces = FilmForces::new(&mesh, &settings, 7);
+/// forces.set_adhesion(VertexId(0), 0.1); // the bending force there is 1/6
+/// forces.set_adhesion(VertexId(3), 0.2);
+///
+/// let mut changes = FilmChanges::default();
+/// separate(&mesh, &mut forces, &settings, 0.001, &mut changes);
+/// assert_eq!(changes.separated, [VertexId(0)]);
+/// assert_eq!(forces.separated_age[0], 0.001);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn separate(
     mesh: &FilmMesh,
     forces: &mut FilmForces,
@@ -49,11 +96,11 @@ pub fn separate(
     let topology = &mesh.topology;
     forces.find_pieces(topology);
     let gain = settings.bending.gain;
-    // Duplicates have separated, so the queue is of original vertices.
+    // Duplicates have separated already, so only original vertices are queued.
     let elements = topology.original_vertex_count();
-    let basis = forces.predictions.basis_of_separations(gain, forces.gamma);
+    let basis = forces.predictions.separation_basis(gain, forces.gamma);
     let queue = &mut forces.predictions.separations;
-    let mut due = if queue.rests_on(basis, elements) {
+    let mut due = if queue.is_valid(basis, elements) {
         queue.take_due()
     } else {
         queue.restart(basis, elements, 0..elements as u32)
@@ -69,23 +116,23 @@ pub fn separate(
             forces.separated_age[v.index()] = age;
             forces.separations += 1;
             forces.predictions.pieces.vertex_separated(topology, v);
-            forces.touch_edges_at(topology, v);
+            forces.make_edges_due(topology, v);
             changes.separated.push(v);
         } else {
             let steps = ring.steps_until_separation(forces, v);
-            forces.predictions.separations.put_off(v.0, steps);
+            forces.predictions.separations.schedule(v.0, steps);
         }
     }
     forces.predictions.separations.give_back(due);
 }
 
-/// What the one-ring of a vertex does to it.
+/// Bending forces of a one-ring on its vertex.
 struct OneRing {
-    /// Sum of bending forces.
+    /// Sum of the bending forces.
     force: f32,
-    /// The same for a contraction of 1 everywhere: sum of k S(phi).
+    /// Sum of the bending forces for a contraction of 1 everywhere, that is the sum of k S(phi).
     lift: f32,
-    /// Number of terms.
+    /// Number of edges that exert a force.
     edges: f32,
 }
 
@@ -105,8 +152,10 @@ impl OneRing {
         Self { force: gain * force, lift: gain * lift, edges }
     }
 
-    /// In how many steps `v`, which holds now, can separate at the earliest: the root of the linear equation (as in
-    /// [`separation_age`]), with `v` as wet as can be where anything is, less all that rounding may bring forward.
+    /// Returns the number of steps before which `v`, which holds now, cannot separate.
+    ///
+    /// This is the root of the linear equation of [`separation_age`]. If any vertex of the film is wet, `v` is taken to
+    /// be fully wet. The error that rounding can cause is subtracted.
     fn steps_until_separation(&self, forces: &FilmForces, v: VertexId) -> f64 {
         let (lift, force, adhesion) = (f64::from(self.lift), f64::from(self.force), f64::from(forces.adhesion(v)));
         if self.lift == 0.0 || adhesion == f64::INFINITY {
@@ -114,18 +163,19 @@ impl OneRing {
         }
         let base = f64::from(forces.adhesion_bases[v.index()].abs());
         let rates = forces.predictions.rates;
-        // Each term of a sum may be off by half the last place of the largest, and so may each step while it is wet.
+        // Each term of a sum may be off by half the last place of the largest term, and so may each step while it is
+        // wet.
         let rounding = f64::from(f32::EPSILON * (self.edges + 8.0));
-        let slack = rounding * (force + lift * forces.grown + base + forces.adhesion_lost);
-        let mut closing = lift * rates.growth;
+        let slack = rounding * (force + lift * forces.contraction_gained + base + forces.adhesion_lost);
+        let mut closing = lift * rates.contraction_growth;
         if adhesion > 0.0 {
-            closing += rates.fall;
-            if rates.wet_fall > 0.0 {
-                closing += rates.wet_fall + f64::from(f32::EPSILON) * base;
+            closing += rates.adhesion_loss;
+            if rates.wet_adhesion_loss > 0.0 {
+                closing += rates.wet_adhesion_loss + f64::from(f32::EPSILON) * base;
             }
         }
         let steps = (adhesion - force - slack) / (closing * (1.0 + rounding));
-        // Nothing closes in: it will hold for as long as that is so.
+        // If the two forces do not approach each other, the vertex holds until the rates change.
         if closing > 0.0 { steps } else { f64::INFINITY }
     }
 }

@@ -1,17 +1,45 @@
-//! Stripping: faces torn all round are removed, and small loose pieces fall (VC 5.3 and beyond).
+//! Strips faces that are torn off all around, and drops small loose pieces (VC 5.3; loose pieces go beyond the paper).
 
 use bevy_math::Vec3;
 
-use super::{FilmForces, FractureScratch};
+use super::{forces::FilmForces, scratch::FractureScratch};
 use crate::{
     film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh},
     settings::StrippingSettings,
 };
 
-/// Removes every face whose half-edges are all torn (at the open border: all its inner edges, once all its
-/// vertices have separated), then every loose piece of up to `fall_faces` faces: nothing holds it, so real
-/// paint would have fallen. Larger loose pieces stay and are remembered, so that bending does not make them
-/// drift. Looks only at this step's tears and separations, and at pieces that came loose by them.
+/// Removes the faces that nothing holds any more.
+///
+/// 1. Every face whose three half-edges are all torn is stripped (VC 5.3). A face at the open border is stripped once
+///    all its inner edges are torn and all its vertices have separated.
+/// 2. Every loose piece (connected faces without an attached vertex) of up to
+///    [`fall_faces`](StrippingSettings::fall_faces) faces falls, as real paint would; the paper leaves it in the air.
+///    Larger loose pieces stay and are listed in [`FilmForces::loose`], so that bending does not make them drift.
+///
+/// The removed faces are appended to [`FilmChanges::removed`], and one entry for each stripped face or fallen piece to
+/// [`FilmChanges::debris`]. `changes` must hold the tears and separations of this step: only faces at them, and pieces
+/// that they set loose, are judged.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmChanges, FilmMesh},
+///     fracture::{FilmForces, FractureScratch, strip},
+///     settings::CoatingSettings,
+/// };
+/// use bevy_math::Vec3;
+///
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let settings = CoatingSettings::default();
+/// let mut forces = FilmForces::new(&mesh, &settings, 7);
+/// forces.separated_age.fill(0.0); // every vertex has separated
+/// forces.touch_all();
+///
+/// let (mut changes, mut scratch) = (FilmChanges::default(), FractureScratch::default());
+/// strip(&mut mesh, &mut forces, &settings.stripping, &mut changes, &mut scratch);
+/// assert_eq!((changes.debris.len(), changes.debris[0].faces), (1, 2), "the whole film falls as one piece");
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn strip(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
@@ -28,7 +56,7 @@ pub fn strip(
         }
     }
     for i in 0..changes.separated.len() {
-        // A border face can hang on by its last attached vertex, whose fan is that face alone.
+        // A border face may have been held by one attached vertex alone; then it is the only face at that vertex.
         if let Some(h) = mesh.topology.fan(changes.separated[i]).next() {
             strip_if_free(mesh, forces, h.face(), changes);
         }
@@ -40,6 +68,7 @@ pub fn strip(
     }
 }
 
+/// Strips `f` if all its inner edges are torn and no vertex of it is attached.
 fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &mut FilmChanges) {
     let corners = mesh.topology.corners(f);
     if mesh.topology.is_cut_out(f) && !corners.iter().any(|&v| forces.is_attached(v)) {
@@ -62,10 +91,11 @@ fn drop_pieces(mesh: &mut FilmMesh, forces: &mut FilmForces, limit: u32, changes
         }
     }
     for h in changes.removed[first..].iter().flat_map(|f| f.half_edges()) {
-        forces.follow_decay(&mesh.topology, h);
+        forces.update_decay(&mesh.topology, h);
     }
 }
 
+/// Describes the piece that consists of `faces`, as it is before they are removed.
 fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
     let (mut position, mut normal, mut area) = (Vec3::ZERO, Vec3::ZERO, 0.0);
     for &f in faces {

@@ -1,44 +1,58 @@
-//! Tearing: edges give way where contraction exceeds binding, and cracks run straight on (VC 5.2).
+//! Tears edges where contraction exceeds binding, so that cracks run nearly straight (VC 5.2).
 
 use bevy_math::Vec3;
 
 use super::{
-    FilmForces,
     balance::{Balance, direction},
+    forces::FilmForces,
+    scratch::{Candidate, FractureScratch},
 };
 use crate::{
-    film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, TearEnd, Topology, VertexId},
+    film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, TearEnd, VertexId},
     settings::TearingSettings,
 };
 
-/// Room for what tearing and stripping work with, kept between steps.
-#[derive(Clone, Debug, Default)]
-pub struct FractureScratch {
-    pub(super) candidates: Vec<Candidate>,
-    pub(super) pieces: PieceScratch,
-}
-
-/// An edge that would tear in the state at the start of the step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
-    edge: HalfEdgeId,
-    /// Largest cosine between the edge and a crack that ends at it; `None` at no tip.
-    alignment: Option<f32>,
-    /// Contraction over binding.
-    overload: f32,
-}
-
-/// Tears edges whose ends have both separated and whose two faces pull harder than the edge binds.
+/// Tears every edge between two separated vertices whose faces together contract harder than the edge binds (VC 5.2).
 ///
-/// Candidates are collected first, then judged again one by one: best aligned with a crack first, edges at no
-/// tip last, then by the largest overload, then by edge. Each tear relieves its neighbours, so tearing the
-/// whole batch as judged at the start would double the torn edges and make cracks crooked. What a tear overloads
-/// waits for the next step.
+/// An edge that continues a crack binds less: if the cosine between it and the crack that ends at one of its vertices
+/// is above [`alpha`](TearingSettings::alpha), only the share [`beta`](TearingSettings::beta) of its binding counts.
+/// All directions are those at rest. A tear leaves its two faces the share
+/// [`contraction_kept`](TearingSettings::contraction_kept) of their contraction.
 ///
-/// Looks only at edges that may be due: predictions hold until an end separates, a crack's tip comes to an end, or one
-/// of the two faces gets its first torn edge, and then the edge is looked at in the next step.
+/// Edges that may tear are collected first and then judged again one by one: first the edge that is best aligned with a
+/// crack (edges at no crack tip come last), then the one with the largest ratio of contraction to binding, then the one
+/// with the lower id. Because each tear relieves the faces beside it, tearing all edges at once would double the
+/// number of torn edges and make cracks crooked. An edge that a tear brings beyond its binding waits for the next step.
 ///
-/// `gravity` is a unit vector in the film's space; it decides which side of a split keeps the vertex.
+/// `gravity` is a unit vector in the film's space: where a tear splits a vertex, the faces that lie lower keep it. Torn
+/// edges and new vertices are appended to [`FilmChanges::torn`], [`FilmChanges::torn_ends`] and
+/// [`FilmChanges::duplicates`].
+///
+/// Only edges that are due are judged. A prediction holds until an end of the edge separates, a crack ends at one of
+/// its ends, or one of its faces gets its first torn edge; any of these makes the edge due.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmChanges, FilmMesh, HalfEdgeId},
+///     fracture::{FilmForces, FractureScratch, tear},
+///     settings::CoatingSettings,
+/// };
+/// use bevy_math::Vec3;
+///
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let settings = CoatingSettings::default();
+/// let mut forces = FilmForces::new(&mesh, &settings, 7);
+/// forces.separated_age.fill(0.0); // every vertex has separated
+/// forces.touch_all();
+/// forces.set_binding(&mesh.topology, HalfEdgeId(1), 1.9); // the contraction of its two faces is 2
+///
+/// let (mut changes, mut scratch) = (FilmChanges::default(), FractureScratch::default());
+/// tear(&mut mesh, &mut forces, &settings.tearing, Vec3::NEG_Y, &mut changes, &mut scratch);
+/// assert_eq!(changes.torn, [HalfEdgeId(1)]);
+/// assert_eq!(forces.torn_edges, 1);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn tear(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
@@ -49,9 +63,9 @@ pub fn tear(
 ) {
     forces.find_pieces(&mesh.topology);
     let elements = mesh.topology.half_edge_count();
-    let basis = forces.predictions.basis_of_tears(settings.alpha, settings.beta);
+    let basis = forces.predictions.tear_basis(settings.alpha, settings.beta);
     let queue = &mut forces.predictions.tears;
-    let due = if queue.rests_on(basis, elements) {
+    let due = if queue.is_valid(basis, elements) {
         queue.take_due()
     } else {
         queue.restart(basis, elements, mesh.topology.all_edges().map(|h| h.0))
@@ -66,7 +80,7 @@ pub fn tear(
     tear_in_order(mesh, forces, settings, gravity, changes, scratch);
 }
 
-/// Judges an edge that is due; puts it off if it holds.
+/// Judges `edge`. Returns it as a candidate if it gives way, and schedules it again if it holds.
 fn candidate(
     mesh: &FilmMesh,
     forces: &mut FilmForces,
@@ -74,15 +88,15 @@ fn candidate(
     edge: HalfEdgeId,
 ) -> Option<Candidate> {
     let balance = Balance::new(mesh, forces, settings, edge)?;
-    let Some(overload) = balance.overload() else {
+    let Some(excess) = balance.excess() else {
         let steps = balance.steps_until_tear(forces, edge);
-        forces.predictions.tears.put_off(edge.0, steps);
+        forces.predictions.tears.schedule(edge.0, steps);
         return None;
     };
-    Some(Candidate { edge, alignment: balance.alignment, overload })
+    Some(Candidate { edge, alignment: balance.alignment, excess })
 }
 
-/// What [`tear`] does, by a look at every edge.
+/// Does the same as [`tear`], but judges every edge.
 #[cfg(test)]
 pub(super) fn tear_everywhere(
     mesh: &mut FilmMesh,
@@ -95,12 +109,12 @@ pub(super) fn tear_everywhere(
     scratch.candidates.clear();
     scratch.candidates.extend(mesh.topology.all_edges().filter_map(|edge| {
         let balance = Balance::new(mesh, forces, settings, edge)?;
-        Some(Candidate { edge, alignment: balance.alignment, overload: balance.overload()? })
+        Some(Candidate { edge, alignment: balance.alignment, excess: balance.excess()? })
     }));
     tear_in_order(mesh, forces, settings, gravity, changes, scratch);
 }
 
-/// Tears the candidates, best first, as far as they are still overloaded when their turn comes.
+/// Tears the candidates in their order, each only if it still gives way when its turn comes.
 fn tear_in_order(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
@@ -112,18 +126,19 @@ fn tear_in_order(
     let FractureScratch { candidates, pieces } = scratch;
     candidates.sort_unstable_by(|a, b| {
         let aligned = |c: &Candidate| c.alignment.unwrap_or(f32::NEG_INFINITY);
-        aligned(b).total_cmp(&aligned(a)).then(b.overload.total_cmp(&a.overload)).then(a.edge.cmp(&b.edge))
+        aligned(b).total_cmp(&aligned(a)).then(b.excess.total_cmp(&a.excess)).then(a.edge.cmp(&b.edge))
     });
     for &Candidate { edge, .. } in candidates.iter() {
-        let overloaded = Balance::new(mesh, forces, settings, edge).is_some_and(|b| b.overload().is_some());
-        if overloaded {
+        let gives_way = Balance::new(mesh, forces, settings, edge).is_some_and(|b| b.excess().is_some());
+        if gives_way {
             tear_edge(mesh, forces, settings, edge, gravity, changes, pieces);
         } else {
-            forces.predictions.tears.touch(edge.0);
+            forces.predictions.tears.make_due(edge.0);
         }
     }
 }
 
+/// Tears `edge` and keeps forces, predictions and `changes` in step.
 fn tear_edge(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
@@ -139,15 +154,15 @@ fn tear_edge(
     for h in [edge, twin] {
         forces.relieve(h.face(), settings.contraction_kept);
         for h in h.face().half_edges() {
-            forces.follow_decay(&mesh.topology, h);
+            forces.update_decay(&mesh.topology, h);
         }
     }
     for (end, other) in ends.into_iter().zip([b, a]) {
         match end {
-            // The crack now ends here and points on, away from the other end.
+            // The crack ends here now and points away from the other end.
             TearEnd::Opened(tip) => {
                 forces.tips[tip.index()] = direction(mesh, other, tip);
-                forces.touch_edges_at(&mesh.topology, tip);
+                forces.make_edges_due(&mesh.topology, tip);
             }
             TearEnd::Split { kept, duplicate } => {
                 forces.duplicate_vertex(kept);
@@ -161,26 +176,4 @@ fn tear_edge(
     forces.torn_edges += 1;
     changes.torn.push(edge);
     changes.torn_ends.push(ends);
-}
-
-impl FilmForces {
-    /// Has the edges at `v` looked at in the next step, or in this one if tearing is yet to come.
-    pub(super) fn touch_edges_at(&mut self, topology: &Topology, v: VertexId) {
-        // No two faces are bound along any other edge of the fan.
-        for h in topology.fan(v).filter(|&h| topology.bound_twin(h).is_some()) {
-            if !self.is_attached(topology.target(h)) {
-                self.predictions.tears.touch(topology.edge(h).0);
-            }
-        }
-    }
-
-    /// Lets the binding of the edge of `h` decay as its faces have it now.
-    pub(super) fn follow_decay(&mut self, topology: &Topology, h: HalfEdgeId) {
-        let (edge, faces) = (topology.edge(h), topology.torn_faces(h));
-        let binding = &mut self.bindings[edge.index()];
-        if binding.torn_faces() != faces {
-            binding.set_torn_faces(faces, self.decay);
-            self.predictions.tears.touch(edge.0);
-        }
-    }
 }

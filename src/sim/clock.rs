@@ -1,17 +1,27 @@
-//! The step counter of one film.
+//! Counts the steps of one film, and tells its age.
 
 use crate::stain::TICKS_PER_AGE;
 
-/// Steps per unit age when nothing else is set, as in the paper's reference run.
+/// Default number of steps per unit age: 1,000, as in the paper's reference run.
 pub const DEFAULT_STEPS_PER_AGE: u32 = 1000;
 
-/// Counts the steps of one film. Age is counted in whole steps, so that it never drifts.
+/// Step counter of one film. Age follows from the number of whole steps, so it never drifts.
+///
+/// ```
+/// use bevy_coating::sim::FilmClock;
+///
+/// let mut clock = FilmClock::new(500);
+/// assert_eq!((clock.age(), clock.dt()), (0.0, 0.002));
+/// clock.steps += 250;
+/// assert_eq!(clock.age(), 0.5);
+/// assert_eq!(clock.step_at(0.75), 375);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct FilmClock {
-    /// Steps taken.
+    /// Number of steps taken so far.
     pub steps: u64,
-    /// Steps that make one unit of age. At least 1.
+    /// Number of steps in a unit of age, 1 or more (0 counts as 1). Default 1,000.
     pub steps_per_age: u32,
 }
 
@@ -22,22 +32,35 @@ impl Default for FilmClock {
 }
 
 impl FilmClock {
-    /// A clock at age 0 with steps of `1 / steps_per_age`; 0 counts as 1.
+    /// Creates a clock at age 0 with steps of 1 / `steps_per_age`; 0 counts as 1.
     pub fn new(steps_per_age: u32) -> Self {
         Self { steps: 0, steps_per_age: steps_per_age.max(1) }
     }
 
-    /// Age at the end of the last step: 0 is fresh, 1 the end of the reference run.
+    /// Returns the age at the end of the last step: 0 is fresh, 1 the end of the paper's reference run.
     pub fn age(&self) -> f64 {
         self.steps as f64 / f64::from(self.steps_per_age.max(1))
     }
 
-    /// Age per step.
+    /// Returns the length of a step, an age.
     pub fn dt(&self) -> f32 {
         1.0 / self.steps_per_age.max(1) as f32
     }
 
-    /// Age since the last [tick](TICKS_PER_AGE) of the stains, if the last step completed one.
+    /// Returns the length of the tick of stains that the last step completed, an age, or `None` if it completed none.
+    ///
+    /// There are [`TICKS_PER_AGE`] ticks in a unit of age. A step that is longer than a tick counts as one tick, as
+    /// long as the step.
+    ///
+    /// ```
+    /// use bevy_coating::sim::FilmClock;
+    ///
+    /// let mut clock = FilmClock::new(1000);
+    /// clock.steps = 9;
+    /// assert_eq!(clock.tick(), None);
+    /// clock.steps = 10;
+    /// assert_eq!(clock.tick(), Some(0.01));
+    /// ```
     pub fn tick(&self) -> Option<f32> {
         let (per_age, ticks_per_age) = (u128::from(self.steps_per_age.max(1)), u128::from(TICKS_PER_AGE));
         let ticks = |steps: u64| u128::from(steps) * ticks_per_age / per_age;
@@ -45,15 +68,14 @@ impl FilmClock {
         if ticks(self.steps) == before {
             return None;
         }
-        // The step that completed the tick before.
+        // The first step at or after the end of the tick before.
         let last = (before * per_age).div_ceil(ticks_per_age);
         Some((u128::from(self.steps) - last) as f32 * self.dt())
     }
 
-    /// The first step at which the film is at least `age` old; 0 for negative ages and NaN.
+    /// Returns the first step at which the film is at least `age` old; 0 for negative ages and NaN.
     pub fn step_at(&self, age: f64) -> u64 {
-        // Steps are counted, so an age that is a whole number of steps is met exactly, but for the rounding
-        // of the age itself.
+        // An age that is a whole number of steps is to give that step, although the age itself has been rounded.
         let steps = (age * f64::from(self.steps_per_age.max(1)) - 1e-6).ceil();
         if steps > 0.0 { steps as u64 } else { 0 }
     }

@@ -1,25 +1,45 @@
-//! A digest of a film's state, to compare runs bit by bit.
+//! Computes a digest of a film's state, to compare runs bit by bit.
 
 use bevy_math::Vec3;
 
-use super::FilmState;
+use super::state::FilmState;
 use crate::{film::FaceFate, stain::RustSource};
 
-/// Name of the digest's algorithm and version of its fields.
+/// Algorithm of the digest and version of the fields that it covers. Digests of different versions cannot be compared.
 pub const DIGEST_ALGORITHM: &str = "blake3-256/film-3";
 
 impl FilmState {
-    /// Feeds the state into `hasher`, all numbers little-endian: steps (u64); vertex, face and half-edge
-    /// counts (u32 each); for each vertex original (u32), rest position, position (3 f32 each), adhesion,
-    /// separation age (f32; infinite while attached), tip direction (3 f32); for each face its three origins
-    /// (u32), fate (u8: 0 live, 1 stripped, 2 fallen), contraction (f32); for each half-edge torn (u8),
-    /// binding (f32). Forces as they are now, however they are kept.
+    /// Feeds the state of the film into `hasher`, for a digest of several films or of more than films.
     ///
-    /// Then the stains: for the film and then for the metal wet rust, stained rust, dust and moisture; then
-    /// corrosion, exposure to rain and exposure to sun, each of these eleven as its length (u32) and its values
-    /// (f32); the number of sources' states (u32) and the states (u8: 0 never, 1 present, 2 past); rust emitted
-    /// and dripped (f64 each); the direction of streaks (3 f32). Exposure is part of it, as what a film does next
-    /// depends on it. What stages can find again is not: areas, ways of run-off, counts for display.
+    /// All numbers are little-endian. First the film:
+    ///
+    /// - the number of steps (u64) and the numbers of vertices, faces and half-edges (u32 each);
+    /// - for each vertex its original (u32), rest position, position (3 f32 each), adhesion, separation age (f32 each;
+    ///   infinite while attached) and tip direction (3 f32);
+    /// - for each face the origins of its half-edges (3 u32), its fate (u8: 0 live, 1 stripped, 2 fallen) and its
+    ///   contraction (f32);
+    /// - for each half-edge whether it is torn (u8) and its binding (f32).
+    ///
+    /// Forces are their present values, however they are stored. Then the stains:
+    ///
+    /// - wet rust, stained rust, dust and moisture of the film, the same of the metal, corrosion, exposure to rain and
+    ///   exposure to sun: each of these eleven as its length (u32) and its values (f32);
+    /// - the number of source states (u32) and the states (u8: 0 never, 1 present, 2 past);
+    /// - rust emitted and dripped (f64 each) and the direction of streaks (3 f32).
+    ///
+    /// Exposure is included because the later state of the film depends on it. Areas, ways of run-off and counters for
+    /// display are not: they follow from the rest.
+    ///
+    /// ```
+    /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState};
+    ///
+    /// let piece = sample::plate(100, 7)?;
+    /// let film = FilmState::new(&piece.film, &CoatingSettings::default(), 7, 100).expect("a plate is a manifold");
+    /// let mut hasher = blake3::Hasher::new();
+    /// film.digest_into(&mut hasher);
+    /// assert_eq!(hasher.finalize().to_hex().to_string(), film.digest());
+    /// # Ok::<(), bevy_coating::surface::BuildError>(())
+    /// ```
     pub fn digest_into(&self, hasher: &mut blake3::Hasher) {
         let (topology, geometry) = (&self.mesh.topology, &self.mesh.geometry);
         let mut bytes = Vec::with_capacity(64 * topology.vertex_count() + 48 * topology.face_count());
@@ -69,7 +89,22 @@ impl FilmState {
         hasher.update(&bytes);
     }
 
-    /// The digest of this film alone, in hexadecimal; see [`FilmState::digest_into`] for what it covers.
+    /// Returns the digest of this film, 64 hexadecimal digits. [`FilmState::digest_into`] lists the fields that it
+    /// covers.
+    ///
+    /// ```
+    /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment};
+    ///
+    /// let settings = CoatingSettings::default();
+    /// let piece = sample::plate(100, 7)?;
+    /// let mut film = FilmState::new(&piece.film, &settings, 7, 100).expect("a plate is a manifold");
+    /// let mut other = film.clone();
+    /// film.step(&settings, &Environment::default());
+    /// assert_ne!(film.digest(), other.digest());
+    /// other.step(&settings, &Environment::default());
+    /// assert_eq!(film.digest(), other.digest());
+    /// # Ok::<(), bevy_coating::surface::BuildError>(())
+    /// ```
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         self.digest_into(&mut hasher);

@@ -1,74 +1,43 @@
-//! What can be measured on a film: fracture statistics, strain and lift.
+//! Measures films: fracture statistics, strain, lift and stains.
 
-use serde::{Deserialize, Serialize};
-
-use super::FilmState;
+use super::{film_measures::FilmMeasures, state::FilmState};
 use crate::{
     film::{FaceFate, HalfEdgeId, LoosePieces, PieceScratch, VertexId},
     stain::{RustBudget, RustSource},
 };
 
-/// Figures of a film at one age. Shares are of the film at rest; `None` where there is nothing to average.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FilmMeasures {
-    /// Age of the film.
-    pub age: f64,
-    /// Original vertices ever separated, over original vertices.
-    pub separated: Option<f64>,
-    /// Torn edges over edges with two faces at rest.
-    pub torn: Option<f64>,
-    /// Faces removed with all edges torn, over original faces; cumulative.
-    pub stripped: Option<f64>,
-    /// Faces that fell as loose pieces, over original faces; cumulative.
-    pub fallen: Option<f64>,
-    /// Live vertices, duplicates included.
-    pub vertices: u64,
-    /// Live crack tips.
-    pub crack_tips: u64,
-    /// Original inner vertices with three or more torn edges.
-    pub junctions: u64,
-    /// Mean cosine of the crack's turn over original inner vertices with exactly two torn edges, at rest:
-    /// +1 is straight on.
-    pub straightness: Option<f64>,
-    /// Sum of rest lengths of torn edges, each once, over the square root of the rest area.
-    pub crack_length: Option<f64>,
-    /// Pieces of live faces joined across bound edges.
-    pub pieces: u64,
-    /// Those without an attached vertex.
-    pub loose_pieces: u64,
-    /// Root mean square of |l - l0| / l0 over active length constraints.
-    pub strain_rms: Option<f64>,
-    /// Largest of the same.
-    pub strain_max: Option<f64>,
-    /// 90th percentile (nearest rank), over live separated vertices, of the height over their plane in mean
-    /// rest edges.
-    pub lift_p90: Option<f64>,
-    /// Rust that sources have given off so far: layers times square metres. It is all of what is wet, what has
-    /// stained and what has dripped, on film and metal.
-    pub rust_emitted: f64,
-    /// Rust that runs off now.
-    pub rust_wet: f64,
-    /// Rust that has stained film and metal for good.
-    pub rust_stained: f64,
-    /// Rust that left: dripped off, or fell with the pieces that it was on.
-    pub rust_dripped: f64,
-    /// Film vertices that rust comes out of.
-    pub sources: u64,
-    /// Mean dust over live film vertices: 0 clean to 1 black.
-    pub dust_mean: Option<f64>,
-    /// Mean moisture over live film vertices: 0 dry to 1 wet.
-    pub moisture_mean: Option<f64>,
-}
-
 impl FilmState {
     /// Measures the film as it is now.
+    ///
+    /// ```
+    /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState};
+    ///
+    /// let piece = sample::plate(100, 7)?;
+    /// let film = FilmState::new(&piece.film, &CoatingSettings::default(), 7, 100).expect("a plate is a manifold");
+    /// let fresh = film.measure();
+    /// assert_eq!((fresh.separated, fresh.torn, fresh.pieces), (Some(0.0), Some(0.0), 1));
+    /// assert_eq!(fresh.lift_p90, None, "no vertex has separated");
+    /// # Ok::<(), bevy_coating::surface::BuildError>(())
+    /// ```
     pub fn measure(&self) -> FilmMeasures {
         Self::measure_all(std::slice::from_ref(self))
     }
 
-    /// Measures several films as one: counts are added up, shares and means taken over all of them. The age
-    /// is the first film's. Crack length is over the square root of the whole rest area, lift in each film's
-    /// own mean edge.
+    /// Measures several films together: counts and amounts are added up, shares and means are taken over all films.
+    ///
+    /// The age is that of the first film, or 0 if there is none. Crack length is relative to the square root of the
+    /// total rest area; the lift of each film is in its own mean edge.
+    ///
+    /// ```
+    /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState};
+    ///
+    /// let settings = CoatingSettings::default();
+    /// let piece = sample::plate(100, 7)?;
+    /// let film = FilmState::new(&piece.film, &settings, 7, 100).expect("a plate is a manifold");
+    /// let both = FilmState::measure_all(&[film.clone(), film.clone()]);
+    /// assert_eq!(both.vertices, 2 * film.measure().vertices);
+    /// # Ok::<(), bevy_coating::surface::BuildError>(())
+    /// ```
     pub fn measure_all(films: &[Self]) -> FilmMeasures {
         let mut sums = Sums::default();
         for film in films {
@@ -78,7 +47,7 @@ impl FilmState {
     }
 }
 
-/// Sums over films, before they become shares and means.
+/// Sums over films, from which shares and means are computed in the end.
 #[derive(Default)]
 struct Sums {
     original_vertices: u64,
@@ -148,11 +117,11 @@ impl Sums {
         self.loose += loose.len() as u64;
     }
 
-    /// Turns and junctions of cracks at the original inner vertices, at rest.
+    /// Adds the turns and junctions of cracks at the original inner vertices, at rest.
     fn add_crack_shapes(&mut self, film: &FilmState) {
         let topology = &film.mesh.topology;
         let original = |v: VertexId| topology.original(v);
-        // For each original vertex: torn edges, and the other ends of the first two.
+        // For each original vertex the number of torn edges, and the other ends of the first two.
         let mut torn = vec![(0u32, [VertexId::NONE; 2]); topology.original_vertex_count()];
         let mut border = vec![false; topology.original_vertex_count()];
         for h in topology.all_edges() {
@@ -245,7 +214,7 @@ impl Sums {
     }
 }
 
-/// The original vertices at the ends of the edge of `h`.
+/// Returns the original vertices at the ends of the edge of `h`.
 fn edge_ends(film: &FilmState, h: HalfEdgeId) -> [VertexId; 2] {
     let topology = &film.mesh.topology;
     [topology.origin(h), topology.target(h)].map(|v| topology.original(v))

@@ -1,17 +1,24 @@
-//! Everything one film needs to step, and the step: the stages in order, without ECS. The same code serves
-//! baking, benches, background ageing and tests; the plugin runs the same functions on the same parts.
+//! Ages one film step by step, without an engine.
+//!
+//! [`FilmState`] holds everything that one film needs and [`stage`] the stages of a step. Baking, benches, background
+//! ageing and tests use them as they are; the plugin runs the same stages on the same parts, as components.
 
 mod clock;
 mod digest;
+mod film_measures;
 mod measure;
+mod scratch;
+pub mod stage;
 mod state;
 mod timing;
+mod validate;
 
 #[cfg(test)]
 mod tests;
 
 pub use clock::{DEFAULT_STEPS_PER_AGE, FilmClock};
 pub use digest::DIGEST_ALGORITHM;
-pub use measure::FilmMeasures;
-pub use state::{FilmState, StepScratch, stage};
+pub use film_measures::FilmMeasures;
+pub use scratch::StepScratch;
+pub use state::FilmState;
 pub use timing::{Stage, StageTimes};

@@ -1,17 +1,21 @@
-//! The metal's own rust: where it lies open it rusts towards saturation.
+//! Corrodes the metal itself where it lies open.
 
 use bevy_math::ops;
 
-use super::StainFields;
+use super::fields::StainFields;
 use crate::settings::CoatingSettings;
 
-/// Corrodes open metal for `dt`: c grows by (1 - c) times the rate and how open the metal lies; faster where it is wet.
+/// Corrodes open metal for `dt`, an age.
+///
+/// Corrosion c obeys dc/dt = [`corrosion`](crate::settings::RustSettings::corrosion) times openness times (1 - c).
+/// Where the metal is wet the rate is larger by the factor 1 +
+/// [`emission`](crate::settings::MoistureSettings::emission) times moisture.
 pub(super) fn corrode(stains: &mut StainFields, settings: &CoatingSettings, dt: f32) {
     let pace = settings.rust.corrosion * dt;
     if pace <= 0.0 {
         return;
     }
-    // Dry metal is open to one of a few degrees.
+    // Dry metal has only three degrees of openness, so the exponential is often the same as before.
     let (mut known, mut left) = (f32::NAN, 1.0);
     for &v in &stains.open {
         let v = v as usize;

@@ -1,19 +1,21 @@
-//! Which film vertices lie at one place: an original vertex and its duplicates.
+//! Lists the film vertices that lie at one place at rest: an original vertex and its duplicates.
 
 use bevy_math::Vec3;
 
 use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
 
-/// Chains of the film vertices of each original vertex, and the original's fan at rest.
+/// Film vertices of each original vertex, and its fan at rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Duplicates {
-    /// Next copy after each film vertex; the chain of an original vertex starts at itself.
+    /// Next vertex in the chain of each film vertex, or `NONE` at its end. The chain of an original vertex starts at
+    /// itself and goes on with its duplicates.
     next: Vec<VertexId>,
-    /// First half-edge of the fan at rest of each original vertex; `NONE` for one without faces.
+    /// First half-edge of the fan at rest of each original vertex; `NONE` for a vertex without faces.
     rest_fans: Vec<HalfEdgeId>,
 }
 
 impl Duplicates {
+    /// Creates the chains of a fresh film, which has no duplicates.
     pub fn new(topology: &Topology) -> Self {
         Self {
             next: vec![VertexId::NONE; topology.vertex_count()],
@@ -21,46 +23,46 @@ impl Duplicates {
         }
     }
 
-    /// Number of film vertices known.
+    /// Returns the number of film vertices, duplicates included.
     pub fn len(&self) -> usize {
         self.next.len()
     }
 
-    /// Appends the duplicate of a vertex whose original is `original`.
+    /// Appends a duplicate of `original`.
     pub fn append(&mut self, original: VertexId) {
         let duplicate = VertexId::new(self.next.len());
         self.next.push(self.next[original.index()]);
         self.next[original.index()] = duplicate;
     }
 
-    /// All film vertices of `original`, itself first.
+    /// Returns all film vertices of `original`, itself first.
     pub fn of(&self, original: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         std::iter::successors(Some(original), |&v| self.after(v))
     }
 
-    /// The copy after `v` in its chain.
+    /// Returns the vertex after `v` in its chain.
     pub fn after(&self, v: VertexId) -> Option<VertexId> {
         self.next[v.index()].get()
     }
 
-    /// Whether `original` has been split.
+    /// Returns whether `original` has duplicates.
     pub fn is_split(&self, original: VertexId) -> bool {
         self.next[original.index()] != VertexId::NONE
     }
 
-    /// The half-edges around `original` at rest.
+    /// Returns the half-edges around `original` as they were at rest.
     pub fn rest_fan<'a>(&self, topology: &'a Topology, original: VertexId) -> impl Iterator<Item = HalfEdgeId> + 'a {
         topology.rest_fan(self.rest_fans[original.index()])
     }
 
-    /// Whether the faces around `original` went all the way round at rest.
+    /// Returns whether the faces around `original` formed a closed ring at rest.
     pub fn is_inner(&self, topology: &Topology, original: VertexId) -> bool {
-        // An open fan at rest starts where it is open.
+        // An open fan starts at the border.
         self.rest_fans[original.index()].get().is_some_and(|first| topology.rest_twin(first).is_some())
     }
 
-    /// The copy of `original` whose faces lie lowest along `pull` (at a tie the lowest vertex); `None` where no face
-    /// is left.
+    /// Returns the film vertex of `original` whose faces lie lowest along `pull` on average (at a tie the one with the
+    /// lowest id), or `None` if no face is left.
     pub fn lowest(&self, mesh: &FilmMesh, original: VertexId, pull: Vec3) -> Option<VertexId> {
         let mut lowest: Option<(f32, VertexId)> = None;
         for v in self.of(original).filter(|&v| mesh.topology.has_faces(v)) {

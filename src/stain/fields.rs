@@ -1,113 +1,120 @@
-//! The stain fields of one film and of the metal under it.
+//! Holds all stains of one film and of the metal under it.
 
 use bevy_math::Vec3;
 
-use super::{duplicates::Duplicates, dust::DustRates, flow::Flow, sources::Catchments};
+use super::{catchments::Catchments, duplicates::Duplicates, dust::rates::DustRates, flow::Flow, layer::StainLayer};
 use crate::film::FilmMesh;
 
-/// Fields of one surface: the film, one entry a vertex, duplicates included; or the metal, one entry an original
-/// vertex.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StainLayer {
-    /// Wet rust, which runs off: layers, the thickness in that of a full coat of rust. 0 or more.
-    pub wet: Vec<f32>,
-    /// Rust that has stained the surface for good: layers. 0 or more.
-    pub stained: Vec<f32>,
-    /// Dust and soot (VC 6.2): 0 clean to 1 black.
-    pub dust: Vec<f32>,
-    /// Moisture: 0 dry to 1 wet.
-    pub moisture: Vec<f32>,
-    /// Surface that a vertex stands for, at rest: a third of each of its faces, in square metres. 0 once it has none.
-    pub areas: Vec<f32>,
-}
-
-impl StainLayer {
-    fn new(areas: Vec<f32>) -> Self {
-        let clean = vec![0.0; areas.len()];
-        Self { wet: clean.clone(), stained: clean.clone(), dust: clean.clone(), moisture: clean, areas }
-    }
-
-    /// Rust at vertex `i`, wet and stained: layers.
-    pub fn rust(&self, i: usize) -> f32 {
-        self.wet[i] + self.stained[i]
-    }
-
-    /// Duplicates all that belongs to vertex `i` to a new vertex at the end, which has no area yet.
-    pub(super) fn duplicate(&mut self, i: usize) {
-        self.wet.push(self.wet[i]);
-        self.stained.push(self.stained[i]);
-        self.dust.push(self.dust[i]);
-        self.moisture.push(self.moisture[i]);
-        self.areas.push(0.0);
-    }
-}
-
-/// Whether rust comes out at a vertex (VC 6.1, fig. 9).
+/// State of a vertex as a source of rust (VC 6.1, fig. 9).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RustSource {
-    /// It never has.
+    /// No rust has come out here so far.
     #[default]
     Never,
-    /// It does.
+    /// Rust comes out here.
     Present,
-    /// It did, but the crack has run on or the film has gone.
+    /// Rust came out here until the crack ran on or the film fell off.
     Past,
 }
 
-/// Rust that has come and gone: layers times square metres.
+/// Amounts of rust that have entered and left one film and its metal, in layers times square metres.
+///
+/// `emitted` is always the sum of `dripped` and of the rust that is still on film and metal
+/// ([`StainFields::wet_amount`] and [`StainFields::stained_amount`]), but for rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RustBudget {
-    /// Given off by sources so far.
+    /// Rust that the sources have given off so far.
     pub emitted: f64,
-    /// Left the prop: dripped off, or fell with the pieces that it was on.
+    /// Rust that has left the prop so far: it dripped off, or it fell with the pieces that it was on.
     pub dripped: f64,
 }
 
-/// Exposure of each original vertex to the weather, 0 to 1: what nothing shelters. Which way the surface faces is not
-/// part of it. Empty: nothing shelters anything; entries that are missing or no number count as 1.
+/// Exposure of each original vertex to rain and sunlight: the share of them that nothing holds off, from 0 (sheltered)
+/// to 1 (exposed).
+///
+/// It does not count which way the surface faces. An empty field means that everything is exposed; a missing entry or
+/// one that is not finite counts as 1. [`exposure_of`](super::exposure::exposure_of) computes it without an engine.
+///
+/// ```
+/// use bevy_coating::stain::Exposure;
+///
+/// let shed = Exposure { rain: vec![1.0, 0.5, 0.0], ..Exposure::default() };
+/// assert!(shed.sun.is_empty(), "the sun reaches every vertex");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposure {
-    /// To rain.
+    /// Share of the rain that reaches each original vertex.
     pub rain: Vec<f32>,
-    /// To sunlight.
+    /// Share of the sunlight that reaches each original vertex.
     pub sun: Vec<f32>,
 }
 
-/// All stains of one film and the metal under it (VC 6), and what their stages remember.
+/// All stains of one film and of the metal under it (VC 6).
+///
+/// ```
+/// use bevy_coating::{
+///     film::FilmMesh,
+///     stain::{RustSource, StainFields},
+/// };
+/// use bevy_math::Vec3;
+///
+/// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+/// let stains = StainFields::new(&mesh);
+/// assert_eq!(stains.film.dust, [0.0; 3]);
+/// assert_eq!(stains.sources, [RustSource::Never; 3]);
+/// assert_eq!(stains.wet_amount() + stains.stained_amount(), 0.0);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
 pub struct StainFields {
-    /// Stains on the film.
+    /// Stains on the film: one entry for each film vertex, duplicates included.
     pub film: StainLayer,
-    /// Stains on the metal.
+    /// Stains on the metal: one entry for each original vertex.
     pub metal: StainLayer,
-    /// How far the metal itself has rusted at each original vertex: 0 bright to 1 rusted through.
+    /// Corrosion of the metal itself at each original vertex: from 0 (bright) to 1 (fully rusted).
     pub corrosion: Vec<f32>,
-    /// Whether each film vertex is a source of rust.
+    /// State of each film vertex as a source of rust.
     pub sources: Vec<RustSource>,
-    /// What sources have given off and what has left.
+    /// Rust that the sources have given off and that has left the prop.
     pub budget: RustBudget,
-    /// Exposure to rain and sun; written by whoever knows what stands around the prop.
+    /// Exposure to rain and sunlight. The default, empty, means that everything is exposed. It is an input, written by
+    /// the plugin or the caller, who know what stands around the prop.
     pub exposure: Exposure,
-    /// Direction in which stains have run, as a mean over all that was stained so far: not of unit length. Fine
-    /// streaks are drawn along it, so that they keep their direction when the prop is turned later.
+    /// Direction in which stains have run: the sum of the pulls' unit vectors, each times the rust that it stained
+    /// (layers times square metres), so not of unit length. Display draws fine streaks along it; they keep their
+    /// direction when the prop is turned later.
     pub streaks: Vec3,
-    /// Counts what can be seen, so that display follows only then.
+    /// Counter that changes whenever visible stains may have changed, so that display needs to follow only then.
     pub revision: u32,
-    /// How open the metal lies at each original vertex: 0 under film that holds, 1 bare.
+    /// Openness of the metal at each original vertex: from 0 (under film that holds) to 1 (bare).
     pub(super) openness: Vec<f32>,
-    /// Original vertices with any openness, in the order in which they opened.
+    /// Original vertices with an openness above 0, in the order in which they opened.
     pub(super) open: Vec<u32>,
+    /// Film vertices of each original vertex.
     pub(super) duplicates: Duplicates,
+    /// Lengths of the cracks that drain to each place.
     pub(super) catchments: Catchments,
+    /// Ways of run-off.
     pub(super) flow: Flow,
+    /// Rates at which dust settles.
     pub(super) dust_rates: DustRates,
-    /// Whether anything is wet or may get so.
+    /// Whether anything is wet or rain falls.
     pub(super) damp: bool,
 }
 
 impl StainFields {
-    /// Clean film and metal. `mesh` is the film at rest.
+    /// Creates the stains of a clean film on clean metal. `mesh` must be a fresh film, on which nothing has torn yet.
+    ///
+    /// ```
+    /// use bevy_coating::{film::FilmMesh, stain::StainFields};
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X * 3.0, Vec3::Y * 2.0], &[[0, 1, 2]])?;
+    /// let stains = StainFields::new(&mesh);
+    /// assert_eq!(stains.film.areas, [1.0; 3], "each vertex stands for a third of its face");
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn new(mesh: &FilmMesh) -> Self {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
         let vertices = topology.vertex_count();
@@ -131,8 +138,24 @@ impl StainFields {
         }
     }
 
-    /// Whether anything is wet: effects of moisture need to be looked at only then.
+    /// Returns whether anything is wet or rain falls. While it is false, all moisture is 0 and no stage need consider
+    /// it.
     pub fn is_damp(&self) -> bool {
         self.damp
     }
+
+    /// Returns the amount of wet rust on film and metal, in layers times square metres.
+    pub fn wet_amount(&self) -> f64 {
+        amount(&self.film.areas, &self.film.wet) + amount(&self.metal.areas, &self.metal.wet)
+    }
+
+    /// Returns the amount of rust that has stained film and metal, in layers times square metres.
+    pub fn stained_amount(&self) -> f64 {
+        amount(&self.film.areas, &self.film.stained) + amount(&self.metal.areas, &self.metal.stained)
+    }
+}
+
+/// Returns the sum of area times layers over all vertices.
+fn amount(areas: &[f32], layers: &[f32]) -> f64 {
+    areas.iter().zip(layers).map(|(&area, &layers)| f64::from(area) * f64::from(layers)).sum()
 }

@@ -1,4 +1,4 @@
-//! Where run-off goes: the ways from every vertex of film and metal, in the order of their depth.
+//! Keeps the ways of run-off from every vertex of film and metal, and which vertices have any (VC 6.1).
 
 use bevy_math::Vec3;
 
@@ -8,35 +8,38 @@ use super::{
 };
 use crate::film::{FilmMesh, VertexId};
 
-/// A change of pull (its direction and strength) below this leaves the ways as they are.
+/// Change of the pull, a vector, below which the ways are kept.
 const SAME_PULL: f32 = 1e-3;
 
-/// The ways of run-off. Each is found when it is first needed and kept until connectivity there or the pull changes.
+/// Ways of run-off on one film and its metal. The way from a vertex is computed when it is first needed and kept until
+/// connectivity there or the pull changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Flow {
-    /// Gravity and wind that the ways were found for; zero before there is any.
+    /// Sum of gravity and wind that the ways were computed for; zero before the first tick.
     pub pull: Vec3,
-    /// Sideways spread that the ways were found for, in metres after one metre.
+    /// Sideways spread that the ways were computed for: the standard deviation in metres after one metre.
     spread: f32,
-    /// Share that drops into cracks that the ways were found for.
+    /// Share of run-off that drops into cracks that the ways were computed for.
     into_cracks: f32,
-    /// Original vertices by depth along the pull. Run-off goes to strictly deeper ones only, so that one pass in this
-    /// order takes it all the way down.
+    /// Original vertices in the order of their depth along the pull. Run-off goes to strictly deeper vertices only, so
+    /// one pass in this order takes it all the way down.
     order: Vec<u32>,
-    /// Place of each original vertex in the order.
+    /// Place of each original vertex in `order`.
     ranks: Vec<u32>,
-    /// One bit a place in the order: whether there is anything to be done.
+    /// One bit for each place in `order`: whether there may be run-off at the vertex.
     awake: Vec<u64>,
-    /// Ways from each film vertex.
+    /// Way from each film vertex.
     film: Vec<Outflow>,
-    /// Ways from the metal under each original vertex.
+    /// Way from the metal under each original vertex.
     metal: Vec<Outflow>,
-    /// Lowest copy of each original vertex that has been split; `NONE` where it is not known yet.
+    /// Lowest film vertex of each original vertex that has been split; `NONE` where it is not known yet.
     lowest: Vec<VertexId>,
+    /// Buffer of the neighbours of a vertex.
     ring: Ring,
 }
 
 impl Flow {
+    /// Creates the flow of a fresh film of `vertices` vertices, without any run-off.
     pub fn new(vertices: usize) -> Self {
         Self {
             order: (0..vertices as u32).collect(),
@@ -49,13 +52,13 @@ impl Flow {
         }
     }
 
-    /// A duplicate was appended.
+    /// Appends a duplicate.
     pub fn append(&mut self) {
         self.film.push(Outflow::STALE);
     }
 
-    /// Connectivity at `original` changed.
-    pub fn stale(&mut self, duplicates: &Duplicates, original: VertexId) {
+    /// Marks the ways from `original` as out of date, because connectivity there has changed.
+    pub fn mark_stale(&mut self, duplicates: &Duplicates, original: VertexId) {
         for v in duplicates.of(original) {
             self.film[v.index()] = Outflow::STALE;
         }
@@ -63,8 +66,9 @@ impl Flow {
         self.lowest[original.index()] = VertexId::NONE;
     }
 
-    /// Forgets all ways if the pull or how it is followed has changed, and sorts the vertices anew.
-    pub fn follow(&mut self, mesh: &FilmMesh, pull: Vec3, spread: f32, into_cracks: f32) {
+    /// Marks all ways as out of date if the pull, the spread or the share that drops into cracks has changed. Sorts the
+    /// vertices again if the pull has.
+    pub fn set_pull(&mut self, mesh: &FilmMesh, pull: Vec3, spread: f32, into_cracks: f32) {
         let same = self.pull.distance_squared(pull) <= SAME_PULL * SAME_PULL;
         if same && self.spread == spread && self.into_cracks == into_cracks {
             return;
@@ -92,31 +96,31 @@ impl Flow {
         }
     }
 
-    /// Whether there may be run-off at `original`.
+    /// Returns whether there may be run-off at `original`.
     fn is_awake(&self, original: VertexId) -> bool {
         let rank = self.ranks[original.index()];
         self.awake[rank as usize / 64] & (1 << (rank % 64)) != 0
     }
 
-    /// There is run-off at `original`.
+    /// Notes that there may be run-off at `original`.
     pub fn wake(&mut self, original: VertexId) {
         let rank = self.ranks[original.index()];
         self.awake[rank as usize / 64] |= 1 << (rank % 64);
     }
 
-    /// There is none any more.
-    pub fn rest(&mut self, original: VertexId) {
+    /// Notes that there is no run-off at `original` any more.
+    pub fn sleep(&mut self, original: VertexId) {
         let rank = self.ranks[original.index()];
         self.awake[rank as usize / 64] &= !(1 << (rank % 64));
     }
 
-    /// Whether there is any at all.
-    pub fn is_still(&self) -> bool {
+    /// Returns whether there is no run-off anywhere.
+    pub fn is_asleep(&self) -> bool {
         self.awake.iter().all(|&word| word == 0)
     }
 
-    /// The first awake vertex from place `rank` on, and its place. Vertices that wake deeper down while a pass is
-    /// under way are met in the same pass.
+    /// Returns the first awake vertex from place `rank` on, and its place. Vertices further down that wake during a
+    /// pass are met in the same pass.
     pub fn next_awake(&self, rank: usize) -> Option<(usize, VertexId)> {
         let mut word = rank / 64;
         let mut bits = self.awake.get(word)? & (u64::MAX << (rank % 64));
@@ -128,17 +132,17 @@ impl Flow {
         Some((rank, VertexId(self.order[rank])))
     }
 
-    /// Number of places in the order.
+    /// Returns the number of places in the order.
     pub fn len(&self) -> usize {
         self.order.len()
     }
 
-    /// The vertex at place `rank` of the order.
+    /// Returns the vertex at place `rank` of the order.
     pub fn at(&self, rank: usize) -> Option<VertexId> {
         self.order.get(rank).map(|&v| VertexId(v))
     }
 
-    /// The lowest of the duplicates of `original` along the pull; `None` where no face is left.
+    /// Returns the film vertex of `original` that lies lowest along the pull, or `None` if no face is left there.
     pub fn lowest(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Option<VertexId> {
         let known = &mut self.lowest[original.index()];
         if *known == VertexId::NONE {
@@ -147,7 +151,7 @@ impl Flow {
         Some(*known)
     }
 
-    /// Ways from film vertex `v`, a copy of `original`.
+    /// Returns the way from film vertex `v`, which is `original` or a duplicate of it.
     pub fn film_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, v: VertexId) -> Outflow {
         if self.film[v.index()].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
@@ -156,7 +160,7 @@ impl Flow {
         self.film[v.index()]
     }
 
-    /// Ways from the metal under `original`.
+    /// Returns the way from the metal under `original`.
     pub fn metal_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Outflow {
         if self.metal[original.index()].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);

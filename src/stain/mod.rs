@@ -1,16 +1,17 @@
-//! Stains on the film and on the metal under it: rust run-off, black stains and moisture (VC 6).
+//! Stains the film and the metal under it: rust run-off, black stains and moisture (VC 6).
 //!
 //! | stage | function | source |
 //! |---|---|---|
 //! | rust | [`run_off`], after [`update_stains`] | VC 6.1, figs. 9 and 10 |
 //! | dust | [`settle_dust`] | VC 6.2, fig. 11 |
 //! | moisture | [`moisten`] | beyond the paper |
-//! | what rain and sun reach, before they are needed | [`exposure`] | beyond the paper |
+//! | exposure to rain and sun, an input of the others | [`exposure`] | beyond the paper |
 //!
-//! All directions and heights of run-off are those at rest. Stains change slowly, so they are advanced in ticks,
-//! [`TICKS_PER_AGE`] to a unit of age, however many steps that takes; only fracture is followed in every step. What a
-//! tick does is stable at any length: run-off is solved implicitly, vertex by vertex downhill, the rest by exponentials.
+//! All directions and heights of run-off are those at rest. Stains change slowly, so they advance in ticks, of which
+//! [`TICKS_PER_AGE`] make a unit of age; only [`update_stains`] runs in every step. A tick of any length is stable:
+//! run-off is solved implicitly, from the highest vertex to the lowest, and everything else by exponentials.
 
+mod catchments;
 mod corrosion;
 mod duplicates;
 mod dust;
@@ -18,26 +19,25 @@ mod environment;
 pub mod exposure;
 mod fields;
 mod flow;
+mod layer;
 mod moisture;
 mod outflow;
 mod rust;
 mod shape;
+mod slope;
 mod sources;
-#[cfg(test)]
-mod tests;
+mod ticks;
 mod update;
 mod validate;
 
-pub use dust::{DustFactors, dust_rate, settle_dust};
+pub use dust::{
+    factors::{DustFactors, dust_rate},
+    settle::settle_dust,
+};
 pub use environment::Environment;
-pub use fields::{Exposure, RustBudget, RustSource, StainFields, StainLayer};
+pub use fields::{Exposure, RustBudget, RustSource, StainFields};
+pub use layer::StainLayer;
 pub use moisture::moisten;
 pub use rust::run_off;
+pub use ticks::TICKS_PER_AGE;
 pub use update::update_stains;
-
-/// How often per unit age stains are advanced, and display follows them. Films with longer steps advance them in each.
-pub const TICKS_PER_AGE: u64 = 100;
-
-/// Below this part of gravity along the surface nothing flows and nothing is a source: a horizontal plate must not
-/// bleed through rounding.
-const LEAST_PULL: f32 = 1e-3;

@@ -1,32 +1,40 @@
-//! Moisture: rain wets what it reaches, air and sun dry it, and water washes.
+//! Wets and dries film and metal, and lets rain wash dust and stains (beyond the paper).
 
 use core::f32::consts::PI;
 
 use bevy_math::{Vec3, ops};
 
-use super::{Environment, Exposure, StainFields, outflow::Outflow, shape::Shape};
+use super::{
+    environment::Environment,
+    fields::{Exposure, StainFields},
+    outflow::Outflow,
+    shape::Shape,
+};
 use crate::{
     film::{FilmMesh, VertexId},
     settings::MoistureSettings,
 };
 
-/// Below this everywhere, in dry weather, a film counts as dry.
+/// Moisture below which a surface counts as dry.
 const DRY: f32 = 1e-4;
 
-/// Where moisture tends at a vertex, and which share of the way is left after a step.
+/// Change of moisture at a vertex in a tick: an exponential approach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tendency {
+    /// Moisture that is approached.
     towards: f32,
+    /// Share of the difference from it that is left after the tick.
     left: f32,
 }
 
 impl Tendency {
-    const DRY: Self = Self { towards: 0.0, left: 1.0 };
+    /// No change.
+    const UNCHANGED: Self = Self { towards: 0.0, left: 1.0 };
 
-    /// dm/dt = wetting (1 - m) - drying m, over `dt`.
+    /// Solves dm/dt = wetting (1 - m) - drying m over `dt`.
     fn new(wetting: f32, drying: f32, dt: f32) -> Self {
         let both = wetting + drying;
-        if both > 0.0 { Self { towards: wetting / both, left: ops::exp(-both * dt) } } else { Self::DRY }
+        if both > 0.0 { Self { towards: wetting / both, left: ops::exp(-both * dt) } } else { Self::UNCHANGED }
     }
 
     fn apply(self, moisture: &mut f32) {
@@ -34,7 +42,40 @@ impl Tendency {
     }
 }
 
-/// Wets and dries for a tick of `dt`, and washes. Does nothing at all while it is dry and has been for long.
+/// Wets and dries film and open metal for a tick of `dt`, an age, and lets rain wash dust (beyond the paper).
+///
+/// Moisture m of a vertex obeys dm/dt = wetting (1 - m) - drying m.
+///
+/// - Wetting is [`wetting`](MoistureSettings::wetting) times the strength of the rain, the cosine between the surface
+///   and the rain, the vertex's [exposure](StainFields::exposure) to rain, and on metal its openness.
+/// - Drying is [`drying`](MoistureSettings::drying) times a factor from 0.5 in hollows to 1.5 on ridges, and times
+///   1 + [`sun`](MoistureSettings::sun) in full sunlight. Metal that is not bare dries at the share
+///   [`crevice`](MoistureSettings::crevice) of this.
+/// - Rain carries dust along at [`wash_dust`](MoistureSettings::wash_dust) where it is wet, the way that run-off takes.
+///
+/// In dry weather, once nothing is wet any more, the call returns at once.
+///
+/// ```
+/// use bevy_coating::{
+///     film::FilmMesh,
+///     settings::MoistureSettings,
+///     stain::{Environment, StainFields, moisten},
+/// };
+/// use bevy_math::Vec3;
+///
+/// // A triangle that faces up, in the rain.
+/// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::Z, Vec3::X], &[[0, 1, 2]])?;
+/// let mut stains = StainFields::new(&mesh);
+/// let rain = Environment { rain: Vec3::NEG_Y, ..Environment::default() };
+/// moisten(&mesh, &mut stains, &MoistureSettings::default(), &rain, 0.1);
+/// assert!(stains.film.moisture[0] > 0.7 && stains.is_damp());
+///
+/// for _ in 0..100 {
+///     moisten(&mesh, &mut stains, &MoistureSettings::default(), &Environment::default(), 0.1);
+/// }
+/// assert!(stains.film.moisture[0] == 0.0 && !stains.is_damp());
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn moisten(
     mesh: &FilmMesh,
     stains: &mut StainFields,
@@ -57,7 +98,7 @@ pub fn moisten(
     let sky = Sky { settings, environment, exposure: &stains.exposure, dt };
     let topology = &mesh.topology;
     for v in topology.all_vertices() {
-        // Where no film is left nothing is wetted any more.
+        // A vertex without faces only dries.
         let tendency = if topology.has_faces(v) {
             sky.tendency(Shape::now(mesh, v), topology.original(v), 1.0, 1.0)
         } else {
@@ -86,7 +127,7 @@ pub fn moisten(
     stains.revision = stains.revision.wrapping_add(1);
 }
 
-/// What the weather does to one film.
+/// Weather over one film.
 struct Sky<'a> {
     settings: &'a MoistureSettings,
     environment: &'a Environment,
@@ -95,11 +136,11 @@ struct Sky<'a> {
 }
 
 impl Sky<'_> {
-    /// Tendency of a surface of `shape`, which rain reaches to the share `reach` and air to the share `airing`. Ridges
-    /// dry faster than hollows, and all surfaces in the sun.
+    /// Returns the tendency of a surface of `shape`, of which rain reaches the share `reach` and air the share
+    /// `airing`. Ridges dry faster than hollows, and every surface dries faster in the sun.
     fn tendency(&self, shape: Shape, original: VertexId, reach: f32, airing: f32) -> Tendency {
         let Self { settings, environment, exposure, dt } = *self;
-        // Exposure may be a user's own.
+        // Exposure may be written by a user, so its entries may be missing, out of range or not finite.
         let exposed = |exposure: &[f32]| match exposure.get(original.index()) {
             Some(x) if x.is_finite() => x.clamp(0.0, 1.0),
             _ => 1.0,
@@ -112,8 +153,8 @@ impl Sky<'_> {
     }
 }
 
-/// Washes dust along with the run-off of water and off the prop; `pace` is the way in metres that fully
-/// wet dust goes straight down.
+/// Washes dust along the ways of run-off, and off the prop. `pace` is the length in metres that fully wet dust moves on
+/// a vertical surface.
 fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
     for rank in 0..stains.flow.len() {
         let Some(original) = stains.flow.at(rank) else { return };
@@ -140,7 +181,7 @@ fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
     }
 }
 
-/// Brings dust (an amount) to where the water goes. A surface takes no more than it can hold.
+/// Brings an amount of dust to the targets of `outflow`. The dust of a surface cannot exceed 1; the rest is lost.
 fn carry(stains: &mut StainFields, amount: f32, outflow: &Outflow) {
     for (target, share) in outflow.ways() {
         let (v, metal) = target.vertex();
@@ -153,7 +194,7 @@ fn carry(stains: &mut StainFields, amount: f32, outflow: &Outflow) {
     }
 }
 
-/// Lets run-off look at everything stained that is wet.
+/// Wakes run-off at every stain that is wet, so that rain can loosen it.
 fn wake_stains(mesh: &FilmMesh, stains: &mut StainFields) {
     for v in mesh.topology.all_vertices() {
         if stains.film.stained[v.index()] > 0.0 && stains.film.moisture[v.index()] > DRY {

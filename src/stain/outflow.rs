@@ -1,29 +1,29 @@
-//! The ways of run-off from one vertex (VC 6.1, fig. 10): along gravity projected on the surface.
+//! Computes where run-off goes from one vertex: along gravity and wind projected on the surface (VC 6.1, fig. 10).
 //!
-//! The paper and the method share run-off among all lower neighbours; that fans out over a third of the ring at every
-//! edge. Here it goes to the two neighbours on either side of the direction in which it runs, shared so that it keeps
-//! that direction on the mean: streaks stay narrow and straight on any film. What sideways spread the edges do not
-//! bring about by themselves is added by turning the direction to both sides.
+//! The paper shares run-off among all lower neighbours, so that it fans out over a third of the ring at every edge.
+//! Here it goes to the two neighbours on either side of its direction, shared so that it keeps that direction on
+//! average: streaks stay narrow and straight on any film. Dividing it between two edges spreads run-off sideways by
+//! itself; if that is less than the spread asked for, the direction is turned to both sides.
 
 use bevy_math::Vec3;
 
-use super::{LEAST_PULL, duplicates::Duplicates};
+use super::{duplicates::Duplicates, slope::LEAST_PULL};
 use crate::film::{FilmMesh, VertexId};
 
-/// Most ways from one vertex.
+/// Largest number of targets of run-off from one vertex.
 const WAYS: usize = 5;
-/// Largest tangent of the angle by which the direction is turned to spread it.
+/// Largest tangent of the angle by which the direction of run-off is turned to spread it.
 const WIDEST_TURN: f32 = 1.7;
-/// Shortest way that counts, in mean edges: run-off must not race along an edge that hardly goes down.
+/// Shortest length that a way is taken to have, in mean edges: run-off must not race over a very short way.
 const SHORTEST: f32 = 0.3;
 
-/// Neighbours in the order of the ring: where run-off to each would go, and the way there at rest.
+/// Neighbours of a vertex in the order of its ring: the target of run-off to each, and the vector to it at rest.
 pub(super) type Ring = Vec<(Target, Vec3)>;
 
-/// Pull, spread and share that drops into cracks.
+/// Pull (gravity plus wind), sideways spread (metres after one metre) and share of run-off that drops into cracks.
 type Way = (Vec3, f32, f32);
 
-/// A film vertex, or the metal under an original vertex.
+/// Target of run-off: a film vertex, or the metal under an original vertex. The highest bit tells them apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Target(u32);
 
@@ -31,43 +31,50 @@ impl Target {
     const NONE: Self = Self(u32::MAX);
     const METAL: u32 = 1 << 31;
 
+    /// Returns the target of film vertex `v`.
     pub fn film(v: VertexId) -> Self {
         Self(v.0)
     }
 
+    /// Returns the target of the metal under `original`.
     pub fn metal(original: VertexId) -> Self {
         Self(original.0 | Self::METAL)
     }
 
-    /// The vertex, and whether it is metal.
+    /// Returns the vertex, and whether the target is the metal under it.
     pub fn vertex(self) -> (VertexId, bool) {
         (VertexId(self.0 & !Self::METAL), self.0 & Self::METAL != 0)
     }
 }
 
-/// Shares of run-off from one vertex, and how fast it leaves. What the shares lack of 1 drips off.
+/// Way of run-off from one vertex: the targets with the share of each, and how fast run-off leaves. If the shares add
+/// up to less than 1, the rest drips off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Outflow {
     targets: [Target; WAYS],
     shares: [f32; WAYS],
-    /// Part of the pull along the surface, over the length of the way: per metre. Times the speed it is the rate at
-    /// which run-off leaves. 0: nothing flows. Negative: not known yet.
+    /// Pull along the surface divided by the length of the way, per metre. Multiplied by the speed of run-off it is the
+    /// rate at which run-off leaves. It is 0 where nothing flows and negative where the way is not known yet.
     pub rate: f32,
 }
 
 impl Outflow {
+    /// A way that must be computed first.
     pub const STALE: Self = Self { targets: [Target::NONE; WAYS], shares: [0.0; WAYS], rate: -1.0 };
+    /// A way along which nothing flows.
     const NOTHING: Self = Self { rate: 0.0, ..Self::STALE };
 
+    /// Returns whether the way must be computed first.
     pub fn is_stale(&self) -> bool {
         self.rate < 0.0
     }
 
-    /// Where run-off goes, with the share of each.
+    /// Returns the targets of run-off, with the share of each.
     pub fn ways(&self) -> impl Iterator<Item = (Target, f32)> + '_ {
         self.targets.iter().copied().zip(self.shares).take_while(|&(target, _)| target != Target::NONE)
     }
 
+    /// Adds `share` to the share of `target`.
     fn add(&mut self, target: Target, share: f32) {
         if share <= 0.0 {
             return;
@@ -81,8 +88,8 @@ impl Outflow {
         }
     }
 
-    /// Ways from film vertex `v`, a copy of `original`: over its own faces, and at a crack's lip to the film below or
-    /// into the crack.
+    /// Computes the way from film vertex `v`, which is `original` or a duplicate of it. It leads over the faces of `v`;
+    /// at the upper lip of a crack it leads to the film below and into the crack.
     pub fn of_film(
         mesh: &FilmMesh,
         duplicates: &Duplicates,
@@ -109,7 +116,7 @@ impl Outflow {
         if over <= 0.0 || outflow.rate == 0.0 {
             return outflow;
         }
-        // An edge of the prop itself: there is nothing on the other side to go to.
+        // At the prop's own border there is nothing on the other side to run to.
         let whole = duplicates.rest_fan(topology, original).count() == topology.fan(v).count();
         if whole && !closed && !duplicates.is_inner(topology, original) {
             return outflow;
@@ -127,7 +134,8 @@ impl Outflow {
         outflow
     }
 
-    /// Ways from the metal under `original`: over bare metal, and where film covers it further down, out onto the film.
+    /// Computes the way from the metal under `original`. It leads over bare metal, and onto the film where film covers
+    /// the metal further down.
     pub fn of_metal(mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, way: Way, ring: &mut Ring) -> Self {
         let (pull, ..) = way;
         let topology = &mesh.topology;
@@ -154,7 +162,8 @@ impl Outflow {
         Self::along(mesh, original, ring, closed, way).0
     }
 
-    /// Ways to the neighbours in `ring`, and the share that leaves the ring over its open side or finds no way down.
+    /// Computes the way to the neighbours in `ring`. Also returns the share of run-off that leaves the ring over its
+    /// open side or has no lower neighbour to run to.
     fn along(mesh: &FilmMesh, original: VertexId, ring: &Ring, closed: bool, (pull, spread, _): Way) -> (Self, f32) {
         let normal = mesh.geometry.rest_normals[original.index()];
         let tangent = pull - normal * pull.dot(normal);
@@ -165,7 +174,7 @@ impl Outflow {
         let side = normal.cross(direction);
         let fan = Fan { ring, closed, normal, pull };
         let straight = fan.split(direction);
-        // Spread that the edges bring about by themselves, as variance a way.
+        // Sideways spread that dividing run-off between two edges causes by itself: a variance for each way.
         let (mut run, mut variance) = (0.0, 0.0);
         for &(i, share) in &straight.ways {
             let way = ring.get(i).map_or(Vec3::ZERO, |&(_, way)| way);
@@ -196,14 +205,15 @@ impl Outflow {
             take(straight, 1.0, &mut run);
         }
         let edge = mesh.geometry.mean_edge;
-        // Over the lip it is half an edge: the part of the vertex's own surface.
+        // The way over the lip of a crack is half an edge long: that far reaches the vertex's own surface.
         let run = (run + over * edge * 0.5).max(edge * SHORTEST);
         outflow.rate = if run > 0.0 { strength / run } else { 0.0 };
         (outflow, over)
     }
 }
 
-/// How run-off in one direction is shared among neighbours; what is left goes over the open side of the ring.
+/// Shares of the run-off in one direction that go to neighbours (places in the ring), and the share that goes over the
+/// open side of the ring.
 #[derive(Clone, Copy, Debug)]
 struct Split {
     ways: [(usize, f32); 2],
@@ -211,14 +221,16 @@ struct Split {
 }
 
 impl Split {
+    /// All run-off goes over the open side of the ring.
     const OVER: Self = Self { ways: [(usize::MAX, 0.0); 2], over: 1.0 };
 
+    /// Returns the split in which all run-off goes to one neighbour.
     fn only(neighbour: usize) -> Self {
         Self { ways: [(neighbour, 1.0), (usize::MAX, 0.0)], over: 0.0 }
     }
 }
 
-/// The neighbours around a vertex.
+/// Neighbours around a vertex.
 struct Fan<'a> {
     ring: &'a Ring,
     closed: bool,
@@ -227,24 +239,26 @@ struct Fan<'a> {
 }
 
 impl Fan<'_> {
-    /// Whether a neighbour lies strictly lower.
+    /// Returns whether a neighbour lies strictly lower.
     fn is_lower(&self, neighbour: usize) -> bool {
         self.ring.get(neighbour).is_some_and(|&(_, way)| way.dot(self.pull) > 0.0)
     }
 
-    /// Shares run-off in `direction` between the two neighbours on either side of it, so that their mean is that
-    /// direction. Where only one of them is lower it takes all; where neither is, the one that lies best.
+    /// Shares run-off in `direction` between the two neighbours on either side of it, so that it keeps its direction on
+    /// average. If only one of them is lower, that one takes all. If neither is, the lower neighbour nearest to the
+    /// direction takes all.
     fn split(&self, direction: Vec3) -> Split {
         let Some((i, j, a, b)) = self.sector(direction) else { return self.leave(direction) };
         match (self.is_lower(i), self.is_lower(j)) {
             (true, true) => Split { ways: [(i, a / (a + b)), (j, b / (a + b))], over: 0.0 },
             (true, false) => Split::only(i),
             (false, true) => Split::only(j),
-            (false, false) => self.best(direction).map_or(Split::OVER, |(best, _)| Split::only(best)),
+            (false, false) => self.nearest(direction).map_or(Split::OVER, |(best, _)| Split::only(best)),
         }
     }
 
-    /// The neighbours between which `direction` lies, and its coordinates along the ways to them.
+    /// Returns the two neighbours between which `direction` lies, and its coordinates in the basis of the vectors to
+    /// them.
     fn sector(&self, direction: Vec3) -> Option<(usize, usize, f32, f32)> {
         let count = self.ring.len();
         let sectors = if self.closed { count } else { count.saturating_sub(1) };
@@ -257,8 +271,8 @@ impl Fan<'_> {
         })
     }
 
-    /// The lower neighbour that lies best in `direction`, and the cosine.
-    fn best(&self, direction: Vec3) -> Option<(usize, f32)> {
+    /// Returns the lower neighbour whose direction is nearest to `direction`, and the cosine between the two.
+    fn nearest(&self, direction: Vec3) -> Option<(usize, f32)> {
         let mut best: Option<(usize, f32)> = None;
         for (i, &(_, way)) in self.ring.iter().enumerate() {
             let cosine = way.normalize_or_zero().dot(direction);
@@ -269,10 +283,10 @@ impl Fan<'_> {
         best
     }
 
-    /// The direction leads out of the ring: run-off follows the rim as far as that goes its way, and leaves over it for
-    /// the rest.
+    /// Shares run-off in a `direction` that leads out of the ring. The square of the cosine to the nearest neighbour on
+    /// the rim follows the rim, the rest goes over it.
     fn leave(&self, direction: Vec3) -> Split {
-        match self.best(direction) {
+        match self.nearest(direction) {
             // A closed ring has no rim; its sectors only miss the direction where it is badly folded.
             Some((best, _)) if self.closed => Split::only(best),
             Some((best, cosine)) => {

@@ -1,24 +1,53 @@
-//! Rust run-off (VC 6.1): sources give off wet rust, which runs down, dries on and stains.
+//! Lets rust run off: sources give off wet rust, which runs down, dries on and stains (VC 6.1).
 
 use bevy_math::Vec3;
 
 use super::{
-    Environment, RustSource, StainFields, StainLayer, corrosion::corrode, outflow::Outflow, sources::is_steep,
+    corrosion::corrode,
+    environment::Environment,
+    fields::{RustSource, StainFields},
+    layer::StainLayer,
+    outflow::Outflow,
+    slope::is_steep,
 };
 use crate::{
     film::{FilmMesh, VertexId},
     settings::{CoatingSettings, MoistureSettings, RustSettings},
 };
 
-/// Wet rust thinner than this dries on where it is.
+/// Thickness in layers below which wet rust dries on where it is.
 const DRY: f32 = 1e-7;
 
-/// Runs off for a tick of `dt`. All fracture so far must have been [followed](super::update_stains).
+/// Lets rust run off for a tick of `dt`, an age (VC 6.1), and corrodes open metal.
+/// [`update_stains`](super::update_stains) must have followed all fracture so far.
 ///
-/// Wet rust w of a vertex obeys dw/dt = emission + inflow - (r + k) w, with r its speed over the length of its way and
-/// k the rate of deposit; stains grow by k w. Vertices are solved in the order of their depth, each with what has come
-/// down to it in this tick, by the implicit Euler scheme: nothing is lost, no tick is too long, and what stays of
-/// a steady stream does not depend on its length.
+/// - A source gives off [`emission`](RustSettings::emission) for each metre of crack that drains to it.
+/// - Wet rust w (layers) of a vertex obeys dw/dt = emission + inflow - (r + k) w. Here r is the speed of run-off
+///   divided by the length of its way, and k the rate of [`deposit`](RustSettings::deposit); stains grow by k w.
+/// - Bare metal c corrodes by dc/dt = [`corrosion`](RustSettings::corrosion) times openness times (1 - c), with an
+///   openness of 1 where a face is gone and less in and beside cracks.
+/// - Where it is wet, sources give off more, run-off is faster, metal corrodes faster, and rain loosens stains, as
+///   [`MoistureSettings`] says.
+///
+/// Run-off follows the sum of gravity and wind along the surface at rest. The vertices are solved from the highest to
+/// the lowest by the implicit Euler scheme, each with the rust that has come down to it in this tick. So no rust is
+/// lost, a tick of any length is stable, and the stain that a steady stream leaves does not depend on the length of the
+/// tick.
+///
+/// ```
+/// use bevy_coating::{
+///     film::FilmMesh,
+///     settings::CoatingSettings,
+///     stain::{Environment, StainFields, run_off},
+/// };
+/// use bevy_math::Vec3;
+///
+/// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+/// let mut stains = StainFields::new(&mesh);
+/// run_off(&mesh, &mut stains, &CoatingSettings::default(), &Environment::default(), 0.01);
+/// assert_eq!(stains.budget.emitted, 0.0, "a film without cracks gives off no rust");
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn run_off(
     mesh: &FilmMesh,
     stains: &mut StainFields,
@@ -29,7 +58,7 @@ pub fn run_off(
     corrode(stains, settings, dt);
     let RustSettings { spread, into_cracks, .. } = settings.rust;
     let spread = (spread * spread + environment.gusts * environment.gusts).sqrt();
-    stains.flow.follow(mesh, environment.gravity + environment.wind, spread, into_cracks);
+    stains.flow.set_pull(mesh, environment.gravity + environment.wind, spread, into_cracks);
     let mut pass = Pass {
         mesh,
         rust: &settings.rust,
@@ -47,25 +76,26 @@ pub fn run_off(
     if pass.stained > 0.0 {
         stains.streaks += stains.flow.pull.normalize_or_zero() * pass.stained;
     }
-    if !(stains.open.is_empty() && stains.flow.is_still()) {
+    if !(stains.open.is_empty() && stains.flow.is_asleep()) {
         stains.revision = stains.revision.wrapping_add(1);
     }
 }
 
-/// One pass downhill.
+/// One pass over all vertices with run-off, from the highest to the lowest.
 struct Pass<'a> {
     mesh: &'a FilmMesh,
     rust: &'a RustSettings,
     moisture: &'a MoistureSettings,
     gravity: Vec3,
     dt: f32,
-    /// Rust that has stained in this pass.
+    /// Amount of rust that has stained in this pass.
     stained: f32,
+    /// Strength of the rain.
     rain: f32,
 }
 
 impl Pass<'_> {
-    /// Solves all that lies at one place: upper lips, the lowest film, the metal.
+    /// Solves all vertices at one place: the upper lips of cracks first, then the lowest film, then the metal.
     fn visit(&mut self, stains: &mut StainFields, original: VertexId) {
         let mut busy = false;
         if stains.duplicates.is_split(original) {
@@ -85,16 +115,16 @@ impl Pass<'_> {
         }
         busy |= self.metal(stains, original);
         if !busy {
-            stains.flow.rest(original);
+            stains.flow.sleep(original);
         }
     }
 
-    /// Solves film vertex `v`; answers whether there is more to come.
+    /// Solves film vertex `v`. Returns whether there is run-off left for the next tick.
     fn film(&mut self, stains: &mut StainFields, original: VertexId, v: VertexId) -> bool {
         let i = v.index();
         let area = stains.film.areas[i];
         if area <= 0.0 {
-            // What was on faces that are gone has been counted when they fell.
+            // Rust on faces that are gone was counted when they fell.
             stains.film.wet[i] = 0.0;
             return false;
         }
@@ -114,7 +144,7 @@ impl Pass<'_> {
         source || stains.film.wet[i] > 0.0
     }
 
-    /// Solves the metal under `original`; answers whether there is more to come.
+    /// Solves the metal under `original`. Returns whether there is run-off left for the next tick.
     fn metal(&mut self, stains: &mut StainFields, original: VertexId) -> bool {
         let i = original.index();
         if stains.metal.wet[i] == 0.0 || stains.metal.areas[i] <= 0.0 {
@@ -126,8 +156,8 @@ impl Pass<'_> {
         stains.metal.wet[i] > 0.0
     }
 
-    /// Takes `emitted` (an amount) in, and solves for what stays wet, what stains and what leaves, which is given as an
-    /// amount.
+    /// Solves vertex `i`, which gives off the amount `emitted`: updates its wet rust and its stain, and returns the
+    /// amount that leaves it.
     fn solve(&mut self, layer: &mut StainLayer, i: usize, emitted: f32, outflow: &Outflow) -> f32 {
         let (area, moisture) = (layer.areas[i], layer.moisture[i]);
         if self.rain > 0.0 && moisture > 0.0 && self.moisture.wash_rust > 0.0 {
@@ -150,7 +180,7 @@ impl Pass<'_> {
         going * wet * area
     }
 
-    /// Hands on what leaves a vertex; the rest drips off.
+    /// Brings the amount that leaves a vertex to its targets. The rest drips off.
     fn share(&mut self, stains: &mut StainFields, amount: f32, outflow: &Outflow) {
         if amount <= 0.0 {
             return;
@@ -167,7 +197,7 @@ impl Pass<'_> {
                 stains.flow.wake(self.mesh.topology.original(v));
             }
         }
-        // Shares that make up the whole leave nothing but rounding.
+        // Where the shares add up to 1 only rounding is left.
         if left > amount * 1e-6 {
             stains.budget.dripped += f64::from(left);
         }

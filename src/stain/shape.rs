@@ -1,23 +1,23 @@
-//! The shape of the film around a vertex, as dust and moisture feel it.
+//! Measures the shape of a surface around a vertex, which dust and moisture depend on.
 
 use core::f32::consts::PI;
 
 use bevy_math::Vec3;
 
-use crate::film::{FilmMesh, VertexId};
+use crate::film::{FilmMesh, HalfEdgeId, VertexId};
 
-/// Which way the film faces at a vertex, and how it is curved.
+/// Orientation and curvature of a surface at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
-    /// Unit normal, or zero where the faces cancel out.
+    /// Unit normal, weighted by area; zero where the faces' normals cancel out.
     pub normal: Vec3,
-    /// Mean dihedral angle of the edges opposite the vertex, in radians: pi is flat, above is convex (VC 6.2's
-    /// curvature).
+    /// Mean dihedral angle of the edges opposite the vertex, in radians: pi is flat, above pi is convex (the curvature
+    /// of VC 6.2).
     pub dihedral: f32,
 }
 
 impl Shape {
-    /// The shape at film vertex `v` as it is now.
+    /// Measures the film at vertex `v` in its present positions.
     pub fn now(mesh: &FilmMesh, v: VertexId) -> Self {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
         let mut normal = Vec3::ZERO;
@@ -30,8 +30,8 @@ impl Shape {
         Self { normal: normal.normalize_or_zero(), dihedral: mean.finish() }
     }
 
-    /// The shape at original vertex `v` at rest, before any of `fan` tore: `fan` holds the half-edges around it.
-    pub fn at_rest(mesh: &FilmMesh, v: VertexId, fan: impl Iterator<Item = crate::film::HalfEdgeId>) -> Self {
+    /// Measures the surface at original vertex `v` at rest, before anything tore. `fan` holds the half-edges around it.
+    pub fn at_rest(mesh: &FilmMesh, v: VertexId, fan: impl Iterator<Item = HalfEdgeId>) -> Self {
         let mut mean = Mean::default();
         for h in fan {
             let opposite = h.next();
@@ -42,7 +42,7 @@ impl Shape {
     }
 }
 
-/// Mean of the angles there are; flat without any.
+/// Mean of angles, some of which may be missing; pi (flat) if all are.
 #[derive(Default)]
 struct Mean {
     sum: f32,

@@ -1,21 +1,52 @@
-//! Stains follow fracture: duplicates, areas, sources, and what lies open.
+//! Keeps stains in step with fracture: duplicates, areas, sources of rust and open metal.
 
 use bevy_math::Vec3;
 
 use super::{
-    RustSource, StainFields,
+    fields::{RustSource, StainFields},
     sources::{end_source, judge},
 };
 use crate::film::{FilmChanges, FilmMesh, TearEnd, VertexId};
 
-/// Openness of metal beside a crack or a bare place, where rust creeps under the film; in a crack; and laid bare.
+/// Openness of the metal beside a crack or beside a bare place: rust creeps under the film.
 const BESIDE: f32 = 0.15;
+/// Openness of the metal in a crack.
 const IN_CRACK: f32 = 0.5;
+/// Openness of the metal beside a removed face.
 const BARE: f32 = 1.0;
 
-/// Brings the stains up to date with what fractured in this step: duplicates get the stains of their vertex, sources
-/// are judged at each tear in turn, and rust on faces that fell leaves with them. `gravity` is a unit vector in the
-/// film's space, or zero.
+/// Brings the stains up to date with the fracture of one step. Call it in every step, before
+/// [`run_off`](super::run_off).
+///
+/// A duplicate gets the stains of its vertex. Both ends of each tear are judged in turn as sources of rust (VC 6.1,
+/// fig. 9). Rust on faces that were removed leaves with them and is counted in
+/// [`RustBudget::dripped`](super::RustBudget::dripped). Metal in cracks, beside them and under removed faces counts as
+/// open from now on.
+///
+/// `mesh` is the film after the step, `changes` what the step changed, and `gravity` a unit vector in the film's space,
+/// or zero.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmChanges, FilmMesh, HalfEdgeId, TearEnd},
+///     stain::{StainFields, update_stains},
+/// };
+/// use bevy_math::Vec3;
+///
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let mut stains = StainFields::new(&mesh);
+/// stains.film.dust[1] = 0.5;
+///
+/// let mut changes = FilmChanges::default();
+/// changes.torn_ends.extend(mesh.tear(HalfEdgeId(1), Vec3::NEG_Y));
+/// changes.torn.push(HalfEdgeId(1));
+/// update_stains(&mesh, &mut stains, &changes, Vec3::NEG_Y);
+///
+/// assert_eq!(mesh.topology.vertex_count(), 6, "both ends of the torn edge lie on the border and were split");
+/// assert_eq!(stains.film.dust, [0.0, 0.5, 0.0, 0.0, 0.5, 0.0]);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
 pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmChanges, gravity: Vec3) {
     if changes.torn.is_empty() && changes.removed.is_empty() {
         return;
@@ -47,12 +78,13 @@ pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmCh
     });
     let removed = changes.removed.iter().flat_map(|&f| topology.corners(f));
     for v in torn.chain(removed) {
-        renew(mesh, stains, topology.original(v));
+        update_place(mesh, stains, topology.original(v));
     }
     stains.revision = stains.revision.wrapping_add(1);
 }
 
 impl StainFields {
+    /// Appends a duplicate of `kept` to all fields of the film. A duplicate of a source is a past one.
     fn duplicate(&mut self, kept: VertexId, original: VertexId) {
         self.film.duplicate(kept.index());
         let was_source = self.sources[kept.index()] != RustSource::Never;
@@ -62,15 +94,15 @@ impl StainFields {
     }
 }
 
-/// Renews what depends on connectivity at `original`: areas of its duplicates, how open its metal lies, and the ways of
-/// run-off there and at its neighbours.
-fn renew(mesh: &FilmMesh, stains: &mut StainFields, original: VertexId) {
+/// Updates what depends on connectivity at `original`: the areas of its film vertices, the openness of its metal, and
+/// the ways of run-off there and at its neighbours.
+fn update_place(mesh: &FilmMesh, stains: &mut StainFields, original: VertexId) {
     let topology = &mesh.topology;
     let StainFields { film, duplicates, openness, open, flow, dust_rates, .. } = stains;
     for v in duplicates.of(original) {
         let faces = topology.fan(v).map(|h| mesh.geometry.rest_area_of(topology, h.face()));
         film.areas[v.index()] = faces.sum::<f32>() / 3.0;
-        dust_rates.stale(v);
+        dust_rates.mark_stale(v);
     }
     let bare = duplicates.rest_fan(topology, original).any(|h| !topology.is_live(h.face()));
     let mut raise = |v: VertexId, to: f32| {
@@ -83,12 +115,12 @@ fn renew(mesh: &FilmMesh, stains: &mut StainFields, original: VertexId) {
         }
     };
     raise(original, if bare { BARE } else { IN_CRACK });
-    flow.stale(duplicates, original);
+    flow.mark_stale(duplicates, original);
     for h in duplicates.rest_fan(topology, original) {
         for side in [h.next(), h.previous()] {
             let neighbour = topology.original(topology.origin(side));
             raise(neighbour, BESIDE);
-            flow.stale(duplicates, neighbour);
+            flow.mark_stale(duplicates, neighbour);
         }
     }
 }

@@ -1,17 +1,35 @@
-//! Checks every invariant of stains.
+//! Checks the invariants of stains.
 
-use super::{RustSource, StainFields, StainLayer};
+use super::{
+    fields::{RustSource, StainFields},
+    layer::StainLayer,
+};
 use crate::film::{FilmMesh, InvariantError, VertexId};
 
-/// How far the rust budget may be off, in what was given off.
+/// Error of the rust budget that rounding may cause, as a share of the rust that was given off.
 const ROUNDING: f64 = 1e-3;
 
 impl StainFields {
-    /// Checks the stains against the film: one entry a vertex, all in range, no rust out of nowhere, no source without
-    /// film. Takes time proportional to the film's size; meant for tests and debugging.
+    /// Checks the stains against the film that they belong to. For tests and debugging: takes time proportional to the
+    /// size of the film.
     ///
     /// # Errors
-    /// The first [`InvariantError`] found.
+    /// - [`InvariantError::ArrayLength`] if a field does not have one entry for each vertex.
+    /// - [`InvariantError::Stain`] if a stain is out of its range or not finite, or if rust comes out at a vertex that
+    ///   has no faces.
+    /// - [`InvariantError::RustBudget`] if the rust given off is not the rust that is wet, has stained or has left.
+    ///
+    /// ```
+    /// use bevy_coating::{film::FilmMesh, stain::StainFields};
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut stains = StainFields::new(&mesh);
+    /// assert!(stains.validate(&mesh).is_ok());
+    /// stains.film.dust[0] = 1.5;
+    /// assert_eq!(stains.validate(&mesh).unwrap_err().to_string(), "stain dust of vertex VertexId(0) is out of range");
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
     pub fn validate(&self, mesh: &FilmMesh) -> Result<(), InvariantError> {
         let (vertices, originals) = (mesh.topology.vertex_count(), mesh.topology.original_vertex_count());
         check_layer(&self.film, vertices)?;
@@ -34,22 +52,9 @@ impl StainFields {
         }
         Ok(())
     }
-
-    /// All wet rust on film and metal: layers times square metres.
-    pub fn wet_amount(&self) -> f64 {
-        amount(&self.film.areas, &self.film.wet) + amount(&self.metal.areas, &self.metal.wet)
-    }
-
-    /// All rust that has stained film and metal: layers times square metres.
-    pub fn stained_amount(&self) -> f64 {
-        amount(&self.film.areas, &self.film.stained) + amount(&self.metal.areas, &self.metal.stained)
-    }
 }
 
-fn amount(areas: &[f32], layers: &[f32]) -> f64 {
-    areas.iter().zip(layers).map(|(&area, &layers)| f64::from(area) * f64::from(layers)).sum()
-}
-
+/// Checks that `layer` has one entry for each of `vertices` vertices and that all entries are in range.
 fn check_layer(layer: &StainLayer, vertices: usize) -> Result<(), InvariantError> {
     let lengths = [&layer.wet, &layer.stained, &layer.dust, &layer.moisture, &layer.areas].map(Vec::len);
     if lengths != [vertices; 5] {
@@ -61,6 +66,7 @@ fn check_layer(layer: &StainLayer, vertices: usize) -> Result<(), InvariantError
     check_range("moisture", &layer.moisture, 1.0)
 }
 
+/// Checks that all entries of `field` lie between 0 and `most`.
 fn check_range(name: &'static str, field: &[f32], most: f32) -> Result<(), InvariantError> {
     match field.iter().position(|value| !(0.0..=most).contains(value)) {
         Some(i) => Err(InvariantError::Stain(name, VertexId::new(i))),

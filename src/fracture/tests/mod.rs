@@ -1,4 +1,4 @@
-//! Each equation and rule of the fracture stages against an independent derivation.
+//! Tests each equation and rule of the fracture stages against an independent derivation.
 
 mod predictions;
 
@@ -6,13 +6,21 @@ use core::f32::consts::PI;
 
 use bevy_math::Vec3;
 
-use super::*;
+use super::{
+    aging::age_forces,
+    forces::FilmForces,
+    scratch::FractureScratch,
+    separation::{bending_force, separate, separation_age},
+    sigmoid::sigmoid,
+    stripping::strip,
+    tearing::tear,
+};
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, VertexId},
     settings::CoatingSettings,
 };
 
-/// A hexagon of six equilateral triangles around vertex 0.
+/// Makes a hexagon of six equilateral triangles around vertex 0.
 fn hexagon() -> FilmMesh {
     let mut positions = vec![Vec3::ZERO];
     let h = 3.0f32.sqrt() / 2.0;
@@ -23,8 +31,8 @@ fn hexagon() -> FilmMesh {
     FilmMesh::new(positions, &triangles).unwrap()
 }
 
-/// A triangular lattice of `n` by `n` cells with unit edges, flat, facing +z.
-pub(crate) fn lattice(n: u32) -> FilmMesh {
+/// Makes a triangular lattice of `n` by `n` cells with unit edges, flat, facing +z.
+fn lattice(n: u32) -> FilmMesh {
     let row = n + 1;
     let h = 3.0f32.sqrt() / 2.0;
     let positions = (0..row * row)
@@ -183,7 +191,7 @@ fn a_vertex_separates_once_at_the_age_of_the_closed_form() {
 }
 
 #[test]
-fn what_nothing_lifts_never_separates() {
+fn a_vertex_that_nothing_lifts_never_separates() {
     assert_eq!(separation_age(0.0, 1.0, 1.0, 2.0, 1.0), f32::INFINITY);
     assert_eq!(separation_age(1.0, 1.0, 0.0, 2.0, 0.0), f32::INFINITY);
     assert_eq!(separation_age(3.0, 1.0, 1.0, 2.0, 1.0), 0.0);
@@ -256,7 +264,7 @@ fn candidates_are_judged_again_when_their_turn_comes() {
     film.bind(a, 1.0);
     film.bind(b, 1.5);
     assert_eq!(film.step(), [a], "largest force over binding first; then the other no longer tears");
-    // Equal overload: the lower edge goes first.
+    // Equal excess: the lower edge goes first.
     let mut film = Tearing::on(lattice(6));
     film.bind(a, 1.5);
     film.bind(b, 1.5);

@@ -1,16 +1,25 @@
-//! What looks only at what is due, against what looks at everything.
+//! Compares stages that judge only what is due with stages that judge everything.
 
 use bevy_math::Vec3;
 use proptest::prelude::*;
 
-use super::*;
+use super::{lattice, separate_all};
 use crate::{
-    film::{FaceId, tests::any_mesh},
-    fracture::{predictions::Predictions, tearing::tear_everywhere},
+    film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId, VertexId, tests::any_mesh},
+    fracture::{
+        aging::age_forces,
+        forces::FilmForces,
+        predictions::Predictions,
+        scratch::FractureScratch,
+        separation::{bending_force, separate},
+        stripping::strip,
+        tearing::{tear, tear_everywhere},
+    },
     remesh::sample,
+    settings::CoatingSettings,
 };
 
-/// A film, and another that forgets what it knows.
+/// A film, and a second one of the same kind that discards its predictions now and then.
 struct Pair {
     mesh: FilmMesh,
     forces: FilmForces,
@@ -19,18 +28,18 @@ struct Pair {
     other: (FilmMesh, FilmForces),
 }
 
-/// What happens in a step besides.
+/// A change from outside before a step.
 #[derive(Clone, Debug)]
 enum Event {
     Nothing,
-    /// One of the settings changes, to a share of its range here.
+    /// One of the settings changes. The second value is a share of the range that is tried here.
     Setting(u8, f32),
-    /// Moisture comes, or goes.
+    /// Moisture comes in a pattern, or goes.
     Moisture(Option<u32>),
     Adhesion(u32, f32),
     Binding(u32, f32),
     Contraction(u32, f32),
-    /// The other film forgets.
+    /// The second film discards its predictions.
     Forget,
 }
 
@@ -94,7 +103,7 @@ impl Pair {
         }
     }
 
-    /// Does the same to both.
+    /// Changes both films.
     fn edit(&mut self, edit: impl Fn(&FilmMesh, &mut FilmForces)) {
         edit(&self.mesh, &mut self.forces);
         edit(&self.other.0, &mut self.other.1);
@@ -138,7 +147,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn what_is_due_is_all_that_happens(
+    fn events_happen_only_where_they_are_due(
         mesh in any_film(),
         seed in any::<u64>(),
         (dt, weak, binding) in (prop_oneof![Just(0.004f32), Just(0.02), 1e-5f32..0.05], 0.0f32..0.1, 2.0f32..7.0),
@@ -177,8 +186,8 @@ proptest! {
     }
 }
 
-/// A plate of 1,000 triangles through a whole age; gives how often vertices and edges were looked at.
-fn looks_of_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmForces, FilmMesh) {
+/// Ages a plate of 1,000 triangles by 1. Returns how often vertices and edges were judged, and the film.
+fn judged_in_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmForces, FilmMesh) {
     let film = sample::plate(1000, 3).unwrap().film;
     let mut mesh = FilmMesh::new(film.positions, &film.triangles).unwrap();
     let mut forces = FilmForces::new(&mesh, settings, 3);
@@ -191,33 +200,33 @@ fn looks_of_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmForc
         strip(&mut mesh, &mut forces, &settings.stripping, &mut changes, &mut scratch);
     }
     let Predictions { separations, tears, .. } = &forces.predictions;
-    ([separations.looks, tears.looks], forces, mesh)
+    ([separations.judged, tears.judged], forces, mesh)
 }
 
 #[test]
-fn work_goes_with_what_happens_and_not_with_time() {
+fn work_depends_on_events_and_not_on_steps() {
     for steps in [1000, 10_000] {
-        let ([vertices, edges], forces, mesh) = looks_of_a_run(&CoatingSettings::default(), steps);
+        let ([vertices, edges], forces, mesh) = judged_in_a_run(&CoatingSettings::default(), steps);
         assert!(forces.torn_edges > 100);
         let originals = mesh.topology.original_vertex_count() as u64;
-        assert!(vertices < 3 * originals, "{vertices} looks at {originals} vertices in {steps} steps");
-        // 1,500 edges; every tear has some ten around it looked at again.
+        assert!(vertices < 3 * originals, "{vertices} judgements of {originals} vertices in {steps} steps");
+        // There are 1,500 edges, and every tear makes about ten around it due.
         let expected = 2 * mesh.topology.all_edges().count() as u64 + 15 * u64::from(forces.torn_edges);
-        assert!(edges < expected, "{edges} looks at edges in {steps} steps with {} tears", forces.torn_edges);
+        assert!(edges < expected, "{edges} judgements of edges in {steps} steps with {} tears", forces.torn_edges);
     }
 }
 
 #[test]
-fn a_film_to_which_nothing_can_happen_is_looked_at_once() {
+fn a_film_to_which_nothing_can_happen_is_judged_once() {
     let mut settings = CoatingSettings::default();
     settings.adhesion.mean = 50.0;
-    let ([vertices, edges], _, mesh) = looks_of_a_run(&settings, 1000);
+    let ([vertices, edges], _, mesh) = judged_in_a_run(&settings, 1000);
     let all = mesh.topology.original_vertex_count() as u64;
     assert_eq!([vertices, edges], [all, mesh.topology.all_edges().count() as u64]);
 }
 
 #[test]
-fn what_is_never_to_give_way_does_not() {
+fn infinite_forces_never_give_way() {
     let mut settings = CoatingSettings::default();
     settings.adhesion.mean = 0.0;
     settings.tearing.contraction = 50.0;
@@ -235,12 +244,13 @@ fn what_is_never_to_give_way_does_not() {
     assert!(film.mesh.topology.fan(VertexId(10)).all(|h| !film.mesh.topology.is_torn(h)));
 }
 
-/// Steps so small that forces change by the last places of their numbers: what rounds the wrong way must not come late.
+/// The steps are so small that forces change by the last places of their numbers. No event may come late because a
+/// prediction was rounded the wrong way.
 #[test]
-fn rounding_brings_nothing_forward_unseen() {
+fn rounding_makes_no_event_late() {
     let mut settings = CoatingSettings::default();
     settings.tearing.weak_probability = 0.0;
-    // Older films carry more in what is kept once for all.
+    // In older films the amounts that are counted once for the whole film are larger.
     for (dt, age, wet) in [(1e-6, 0.0f32, false), (2e-7, 1.0, false), (2e-7, 8.0, true)] {
         for tears in [false, true] {
             let mut film = Pair::new(lattice(20), &settings, 0);

@@ -1,9 +1,14 @@
-//! The packed solver over whole runs: the same bits at every level, the look of the plain solver, and sleep.
+//! Tests the packed solver over whole runs: the same bits at every level, the lift of the plain solver, and sleep.
 
-use super::*;
+use bevy_math::Vec3;
+
+use super::{plate, quick};
 use crate::{
     deform::{self, SimdLevel, SolvePace, SolverQuality, sweeps_and_momentum},
     film::{FilmMesh, VertexId, tests::sphere},
+    settings::CoatingSettings,
+    sim::{stage, state::FilmState},
+    stain::Environment,
 };
 
 fn bumpy() -> FilmMesh {
@@ -44,8 +49,8 @@ fn every_level_gives_the_same_bits_through_steps_with_tearing() {
     }
 }
 
-/// Lift at ages 0.5 and 1 and strain at 1, means over seeds.
-fn looks(quality: SolverQuality) -> [f64; 3] {
+/// Returns the lift at ages 0.5 and 1 and the strain at age 1, means over three seeds.
+fn lifts_and_strain(quality: SolverQuality) -> [f64; 3] {
     let settings = CoatingSettings::default();
     let mut sums = [0.0; 3];
     let seeds = 1..=3;
@@ -63,12 +68,12 @@ fn looks(quality: SolverQuality) -> [f64; 3] {
 }
 
 #[test]
-fn packed_solvers_have_the_look_of_the_plain_one() {
-    let reference = looks(SolverQuality::Reference);
+fn packed_solvers_lift_and_strain_like_the_plain_one() {
+    let reference = lifts_and_strain(SolverQuality::Reference);
     for (quality, tolerance) in
         [(SolverQuality::High, 0.04), (SolverQuality::Default, 0.04), (SolverQuality::Fast, 0.06)]
     {
-        let found = looks(quality);
+        let found = lifts_and_strain(quality);
         for i in 0..2 {
             let ratio = found[i] / reference[i];
             assert!((ratio - 1.0).abs() < tolerance, "{quality:?}: lifts {found:?} for {reference:?}");
@@ -106,7 +111,7 @@ fn momentum_makes_up_for_the_sweeps_that_are_left_out() {
     assert_eq!(sweeps_and_momentum(0.0, SolverQuality::Default), (0.0, 0.0));
 }
 
-/// One step, in which nothing falls asleep.
+/// Takes one step, in which nothing falls asleep.
 fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
     let environment = Environment::default();
     let FilmState { mesh, forces, constraints, stains, clock, quality, changes, scratch } = film;
@@ -122,18 +127,18 @@ fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
 }
 
 #[test]
-fn sleep_does_not_show() {
+fn sleep_changes_no_crack_and_little_shape() {
     let settings = CoatingSettings::default();
     for (mesh, seed) in [(plate(1500, 6, &settings, 1000).mesh, 6), (bumpy(), 7)] {
         let mut film = FilmState::from_mesh(mesh, &settings, seed, 1000);
         let mut awake = film.clone();
         let mut slept = 0;
-        for (step, look) in (1..=1000).map(|step| (step, step == 500 || step == 1000)) {
+        for (step, compare) in (1..=1000).map(|step| (step, step == 500 || step == 1000)) {
             film.step(&settings, &Environment::default());
             step_sleepless(&mut awake, &settings);
             let count = |film: &FilmState| film.constraints.awake_count();
             slept += count(&awake) - count(&film);
-            if !look {
+            if !compare {
                 continue;
             }
             assert!(film.mesh.topology == awake.mesh.topology, "cracks differ at step {step}");

@@ -1,19 +1,27 @@
+//! Tests exposure with roofs, boxes and single rays.
+
 use core::f32::consts::{FRAC_PI_2, PI};
 
-use bevy_math::{Mat3, Quat};
+use std::sync::Arc;
+
+use bevy_math::{Affine3A, Mat3, Quat, Vec3};
 use proptest::prelude::*;
 
-use super::*;
-use crate::remesh::sample::plate;
+use super::{
+    ray::Ray,
+    surface::{Blocker, ExposedSurface, exposure_of},
+    tree::TriangleTree,
+};
+use crate::{film::FilmMesh, remesh::sample::plate, stain::fields::Exposure};
 
-/// A rectangle in the plane y = `height`, over `min` to `max` in x and z.
+/// Makes a rectangle in the plane y = `height`, over `min` to `max` in x and z.
 fn roof(height: f32, min: [f32; 2], max: [f32; 2]) -> [[Vec3; 3]; 2] {
     let [a, b, c, d] =
         [[min[0], min[1]], [max[0], min[1]], [max[0], max[1]], [min[0], max[1]]].map(|[x, z]| Vec3::new(x, height, z));
     [[a, b, c], [a, c, d]]
 }
 
-/// A film of `n` by `n` squares over 0 to 1 in x and z, facing up.
+/// Makes a film of `n` by `n` squares over 0 to 1 in x and z, facing up.
 fn floor(n: u32) -> FilmMesh {
     let side = n + 1;
     let positions = (0..side * side).map(|i| Vec3::new((i % side) as f32, 0.0, (i / side) as f32) / n as f32).collect();
@@ -25,7 +33,7 @@ fn floor(n: u32) -> FilmMesh {
     FilmMesh::new(positions, &triangles).unwrap()
 }
 
-/// A box from -`half` to `half`, with `n` by `n` squares a side that share their vertices along its edges.
+/// Makes a box from -`half` to `half`, with `n` by `n` squares a side that share their vertices along its edges.
 fn cube(n: i32, half: f32) -> FilmMesh {
     let (mut positions, mut triangles) = (Vec::<Vec3>::new(), Vec::new());
     let mut at = |p: Vec3| {
@@ -116,7 +124,7 @@ fn inside_a_bell_no_rain_falls() {
 }
 
 #[test]
-fn what_a_film_went_through_does_not_change_what_it_was_exposed_to() {
+fn fracture_does_not_change_exposure() {
     let mut film = floor(6);
     let around = roof(1.0, [-9.0, -9.0], [0.5, 9.0]);
     let fresh = exposure_of(&film, around, Vec3::NEG_Y, Vec3::Y);
@@ -161,7 +169,7 @@ fn blockers_that_are_no_shape_block_nothing() {
 
 #[test]
 fn no_ray_slips_through_the_seams_of_a_roof() {
-    // A fine roof, none of whose edges can be told apart from the rays that hit it.
+    // A roof of many small triangles, so that many rays come close to an edge.
     let film = floor(60);
     let roof: Vec<[Vec3; 3]> = {
         let mesh = plate(4000, 3).unwrap().film;
@@ -175,7 +183,7 @@ fn no_ray_slips_through_the_seams_of_a_roof() {
 }
 
 proptest! {
-    /// The tree finds what trying every triangle finds.
+    /// Compares the tree with a test of every triangle.
     #[test]
     fn the_tree_misses_nothing(
         corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-8i8..8)), 0..60),

@@ -1,40 +1,51 @@
-//! Triangles in a tree of boxes, to ask whether a ray meets any of them.
+//! Arranges triangles in a tree of boxes, to find quickly whether a ray meets any of them.
 
 use bevy_math::Vec3;
 
 use super::ray::Ray;
 
-/// Most triangles of a leaf.
+/// Largest number of triangles in a leaf.
 const LEAF: usize = 4;
-/// Depth that a walk through the tree can need: it is cut in halves, so 32 levels are 2^32 triangles.
+/// Size of the stack of a walk through the tree. Every node splits its triangles into halves, so 32 levels would do for
+/// 2^32 triangles.
 const DEPTH: usize = 64;
 
-/// Triangles in a tree of boxes.
+/// Triangles in a tree of boxes, which finds quickly whether a ray meets any of them.
+///
+/// ```
+/// use bevy_coating::stain::exposure::TriangleTree;
+/// use bevy_math::Vec3;
+///
+/// let broken = [Vec3::NAN, Vec3::X, Vec3::Y];
+/// let tree = TriangleTree::new([[Vec3::ZERO, Vec3::X, Vec3::Y], broken]);
+/// assert_eq!(tree.len(), 1, "triangles that are not finite are left out");
+/// assert_eq!(tree.bounds(), Some((Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0))));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct TriangleTree {
-    /// Depth first: the first child of a node follows it.
+    /// Nodes in depth-first order: the first child of a node follows it.
     nodes: Vec<Node>,
-    /// In the order of the leaves.
+    /// Triangles in the order of the leaves.
     triangles: Vec<[Vec3; 3]>,
 }
 
-/// A box and what is in it.
+/// Node of the tree: a box around its triangles.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     min: Vec3,
     max: Vec3,
-    /// Of a leaf: its first triangle. Of others: the second child.
+    /// Index of the first triangle of a leaf, or of the second child of an inner node.
     first: u32,
-    /// Triangles of a leaf; 0 for others.
+    /// Number of triangles of a leaf; 0 for an inner node.
     count: u32,
 }
 
-/// A triangle that is being sorted in, with twice its box's middle.
+/// Triangle that is being sorted into the tree, after twice the centre of its box.
 type Item = (Vec3, [Vec3; 3]);
 
 impl TriangleTree {
-    /// A tree of `triangles`. Which way they face does not matter; those with corners that are not finite are left
-    /// out.
+    /// Builds a tree of `triangles`, whose orientation does not matter. Triangles with a corner that is not finite are
+    /// left out.
     pub fn new(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Self {
         let mut items: Vec<Item> = triangles
             .into_iter()
@@ -51,7 +62,7 @@ impl TriangleTree {
         tree
     }
 
-    /// Appends the node of `items` and all below it.
+    /// Appends the node of `items` and all nodes below it.
     fn grow(&mut self, items: &mut [Item]) {
         let (min, max) = bounds(items.iter().map(|(_, triangle)| triangle));
         let node = self.nodes.len();
@@ -74,7 +85,7 @@ impl TriangleTree {
         }
     }
 
-    /// Whether the ray from `origin` meets a triangle, from either side.
+    /// Returns whether the ray from `origin` meets any triangle, from either side.
     pub fn is_met(&self, ray: &Ray, origin: Vec3) -> bool {
         if self.nodes.is_empty() {
             return false;
@@ -108,22 +119,23 @@ impl TriangleTree {
         }
     }
 
-    /// Lowest and highest corner of all triangles; `None` without any.
+    /// Returns the lowest and the highest corner of the box around all triangles, or `None` if there are none.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         self.nodes.first().map(|root| (root.min, root.max))
     }
 
-    /// Number of triangles.
+    /// Returns the number of triangles.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Whether there are no triangles.
+    /// Returns whether there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 }
 
+/// Returns the lowest and the highest corner of the box around `triangles`.
 fn bounds<'a>(triangles: impl IntoIterator<Item = &'a [Vec3; 3]>) -> (Vec3, Vec3) {
     triangles.into_iter().flatten().fold((Vec3::MAX, Vec3::MIN), |(min, max), &p| (min.min(p), max.max(p)))
 }

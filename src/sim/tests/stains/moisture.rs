@@ -1,4 +1,4 @@
-//! Rain, shelter, drying, and what moisture does.
+//! Rain, shelter, drying, and the effects of moisture.
 
 use super::*;
 
@@ -14,7 +14,7 @@ fn aged(settings: &CoatingSettings, environment: &Environment, age: f64) -> Film
 }
 
 #[test]
-fn what_faces_the_rain_gets_wet_and_what_does_not_stays_dry() {
+fn surfaces_that_face_the_rain_get_wet_and_others_stay_dry() {
     let settings = held();
     let moisture = |environment: &Environment| aged(&settings, environment, 0.5).measure().moisture_mean.unwrap();
     assert!(moisture(&rain(0.0, 0.0, -1.0)) > 0.7);

@@ -165,7 +165,8 @@ fn run_off_crosses_cracks_and_falls_into_them() {
         settings.rust.into_cracks = into_cracks;
         let mut film = plate(3012, &settings, 100);
         crack(&mut film, Vec3::new(0.02, 0.35, 0.0), Vec3::new(0.0, 0.25, 0.0));
-        // A wide level crack in the way. The parts of it that slope have sources of their own: none is to give anything.
+        // A wide level crack in the way. The parts of it that slope have sources of their own: none is to give
+        // anything.
         let edges = crack(&mut film, Vec3::new(-0.25, 0.1, 0.0), Vec3::new(0.25, 0.1, 0.0));
         film.step(&settings, &Environment::default());
         let upper = nearest(&film, Vec3::new(0.0, 0.25, 0.0));

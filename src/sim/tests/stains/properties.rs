@@ -1,11 +1,11 @@
-//! What holds on any mesh at any time.
+//! Rules that hold on any mesh at any time.
 
 use bevy_math::Quat;
 use proptest::prelude::*;
 
 use super::*;
 
-/// A closed or open bumpy piece: a sphere or a plate, pushed in and out.
+/// Makes a closed or open bumpy piece: a sphere or a plate, pushed in and out.
 fn piece(open: bool, seed: u64, bumps: f32) -> FilmMesh {
     let (mut positions, triangles) = if open {
         let film = sample::plate(500, seed % 7).unwrap().film;

@@ -1,4 +1,4 @@
-//! What holds of stains on any mesh, and on test pieces with cracks put where a test wants them.
+//! Stains over whole runs: on any mesh, and on test pieces with cracks at chosen places.
 
 mod dust;
 mod moisture;
@@ -7,15 +7,15 @@ mod rust;
 
 use bevy_math::Vec3;
 
-use super::*;
 use crate::{
     film::{FilmMesh, HalfEdgeId, VertexId},
     remesh::sample,
     settings::CoatingSettings,
-    sim::FilmState,
+    sim::state::FilmState,
+    stain::{Environment, RustSource, StainLayer},
 };
 
-/// Settings under which everything has separated at once, and nothing tears or moves by itself.
+/// Makes settings under which every vertex separates at once, and nothing tears or moves by itself.
 fn held() -> CoatingSettings {
     let mut settings = CoatingSettings::default();
     settings.adhesion.mean = 0.0;
@@ -31,7 +31,7 @@ fn film_of(mesh: FilmMesh, settings: &CoatingSettings, steps_per_age: u32) -> Fi
     FilmState::from_mesh(mesh, settings, 1, steps_per_age)
 }
 
-/// The test plate: side 1 in the xy plane, facing +z, centred on the origin.
+/// Makes the test plate: side 1 in the xy plane, facing +z, centred on the origin.
 fn plate(triangles: u32, settings: &CoatingSettings, steps_per_age: u32) -> FilmState {
     let piece = sample::plate(triangles, 1).unwrap();
     FilmState::new(&piece.film, settings, 1, steps_per_age).unwrap()
@@ -65,7 +65,7 @@ fn sources(film: &FilmState) -> Vec<VertexId> {
     film.mesh.topology.all_vertices().filter(is_source).collect()
 }
 
-/// Amounts of rust on film and metal at each original vertex.
+/// Returns the amount of rust on film and metal at each original vertex.
 fn amounts(film: &FilmState) -> Vec<f64> {
     let stains = &film.stains;
     let mut amounts: Vec<f64> = (0..film.mesh.topology.original_vertex_count())
@@ -78,7 +78,7 @@ fn amounts(film: &FilmState) -> Vec<f64> {
     amounts
 }
 
-/// Mean of `value` over the rust of a film, weighed by amount.
+/// Returns the mean of `value` over the rust of a film, weighted by amount.
 fn mean(film: &FilmState, value: impl Fn(Vec3) -> f32) -> f64 {
     let amounts = amounts(film);
     let places = amounts.iter().zip(&film.mesh.geometry.rest_positions);

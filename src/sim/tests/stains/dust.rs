@@ -1,40 +1,6 @@
-//! Black stains by height, direction and curvature.
-
-use core::f32::consts::PI;
+//! Black stains over whole runs: where dust gathers, and that it follows film that moves.
 
 use super::*;
-use crate::settings::DustSettings;
-
-#[test]
-fn dust_is_slower_where_higher_facing_down_and_convex() {
-    let settings = DustSettings::default();
-    let rate = |height, facing, dihedral| dust_rate(DustFactors { height, facing, dihedral }, &settings);
-    for step in 0..20 {
-        let t = step as f32 / 20.0;
-        let next = t + 0.05;
-        assert!(rate(next, 0.2, PI) < rate(t, 0.2, PI), "height {t}");
-        assert!(rate(0.3, 2.0 * next - 1.0, PI) < rate(0.3, 2.0 * t - 1.0, PI), "facing {t}");
-        assert!(rate(0.3, 0.2, 2.0 * PI * next) < rate(0.3, 0.2, 2.0 * PI * t), "curvature {t}");
-    }
-    // VC 6.2 with the constants of the method.
-    assert!((rate(1.0, 1.0, PI) - 1.2 * 0.6 * 0.2).abs() < 1e-6);
-    assert!((rate(0.0, -1.0, PI) - 1.2).abs() < 1e-6);
-}
-
-#[test]
-fn each_factor_can_be_seen_alone() {
-    let alone = |set: fn(&mut DustSettings)| {
-        let mut settings = DustSettings { height: 0.0, direction: 0.0, curvature: 0.0, ..DustSettings::default() };
-        set(&mut settings);
-        let rate = |height, facing, dihedral| dust_rate(DustFactors { height, facing, dihedral }, &settings);
-        let reference = rate(0.2, 0.1, 3.0);
-        [rate(0.9, 0.1, 3.0), rate(0.2, 0.8, 3.0), rate(0.2, 0.1, 3.5)].map(|rate| rate < reference)
-    };
-    assert_eq!(alone(|_| {}), [false; 3]);
-    assert_eq!(alone(|s| s.height = 1.0), [true, false, false]);
-    assert_eq!(alone(|s| s.direction = 1.0), [false, true, false]);
-    assert_eq!(alone(|s| s.curvature = 1.0), [false, false, true]);
-}
 
 #[test]
 fn dust_gathers_low_and_on_top_of_things() {

@@ -1,0 +1,49 @@
+//! Keeps the forces in step with edits of the film mesh.
+
+use bevy_math::Vec3;
+
+use super::forces::FilmForces;
+use crate::film::{FaceId, FilmPieces, HalfEdgeId, LoosePieces, Topology, VertexId};
+
+impl FilmForces {
+    /// Finds the connected pieces of the film if they are not known.
+    pub(super) fn find_pieces(&mut self, topology: &Topology) {
+        if !self.predictions.pieces.fits(topology) {
+            self.predictions.pieces = FilmPieces::new(topology, |v| self.separated_age[v.index()] == f32::INFINITY);
+            self.loose = LoosePieces::default();
+        }
+    }
+
+    /// Appends a vertex with the forces of `v`. Neither of the two is a crack tip: a split vertex is a junction.
+    pub(super) fn duplicate_vertex(&mut self, v: VertexId) {
+        self.adhesion_bases.push(self.adhesion_bases[v.index()]);
+        self.separated_age.push(self.separated_age[v.index()]);
+        self.tips[v.index()] = Vec3::ZERO;
+        self.tips.push(Vec3::ZERO);
+    }
+
+    /// Multiplies the contraction of `f` by `kept`.
+    pub(super) fn relieve(&mut self, f: FaceId, kept: f32) {
+        self.contraction_bases[f.index()] = self.contraction(f) * kept - self.contraction_gained as f32;
+    }
+
+    /// Makes the edges at `v` due the next time that edges are judged, if both of their ends have separated.
+    pub(super) fn make_edges_due(&mut self, topology: &Topology, v: VertexId) {
+        // An edge that is bound lies between two faces of the fan, so one of its half-edges starts at `v`.
+        for h in topology.fan(v).filter(|&h| topology.bound_twin(h).is_some()) {
+            if !self.is_attached(topology.target(h)) {
+                self.predictions.tears.make_due(topology.edge(h).0);
+            }
+        }
+    }
+
+    /// Sets how fast the binding of the edge of `h` decays, by the torn edges that its faces have now.
+    pub(super) fn update_decay(&mut self, topology: &Topology, h: HalfEdgeId) {
+        let (edge, faces) = (topology.edge(h), topology.torn_faces(h));
+        let binding = &mut self.bindings[edge.index()];
+        if binding.torn_faces() != faces {
+            binding.set_torn_faces(faces, self.binding_decay);
+            self.predictions.tears.make_due(edge.0);
+        }
+    }
+}

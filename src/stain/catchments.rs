@@ -1,0 +1,47 @@
+//! Adds up the lengths of cracks that drain to the same place.
+
+use crate::film::VertexId;
+
+/// Length of the cracks that drain to each place. A torn edge leads rust from its upper to its lower end; where several
+/// torn edges lead to the same place, their lengths add up.
+///
+/// A forest of original vertices, each pointing to the vertex that it drains to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Catchments {
+    /// Original vertex that each original vertex drains to; itself if it drains no further.
+    drains: Vec<u32>,
+    /// Length in metres of the cracks that drain to each original vertex that drains no further.
+    lengths: Vec<f32>,
+}
+
+impl Catchments {
+    /// Creates the catchments of an uncracked film of `vertices` vertices.
+    pub fn new(vertices: usize) -> Self {
+        Self { drains: (0..vertices as u32).collect(), lengths: vec![0.0; vertices] }
+    }
+
+    /// Adds a torn edge of `length` metres between two original vertices.
+    pub fn connect(&mut self, upper: VertexId, lower: VertexId, length: f32) {
+        let root = self.root(lower.index());
+        if self.drains[upper.index()] as usize == upper.index() && root != upper.index() {
+            self.drains[upper.index()] = root as u32;
+            self.lengths[root] += std::mem::take(&mut self.lengths[upper.index()]);
+        }
+        self.lengths[root] += length;
+    }
+
+    /// Returns the vertex to which `v` drains in the end.
+    fn root(&mut self, mut v: usize) -> usize {
+        while self.drains[v] as usize != v {
+            // Path halving, so that later searches are short.
+            self.drains[v] = self.drains[self.drains[v] as usize];
+            v = self.drains[v] as usize;
+        }
+        v
+    }
+
+    /// Returns the length in metres of the cracks that drain to `original` and no further.
+    pub fn length(&self, original: VertexId) -> f32 {
+        self.lengths[original.index()]
+    }
+}
