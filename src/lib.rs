@@ -1,14 +1,15 @@
 //! Paint on metal that separates, cracks, curls, flakes off and bleeds rust while a [Bevy](https://bevy.org) game runs.
 //!
-//! After A. Ishitobi, M. Nakayama, I. Fujishiro: *Visual Simulation of Crack and Bend Generation in Deteriorated Films
-//! Coated on Metal Objects: Combination of Static Fracture and Position-Based Deformation*, The Visual Computer, 2023
-//! ("VC" in these pages).
+//! The simulation follows A. Ishitobi, M. Nakayama, I. Fujishiro: *Visual Simulation of Crack and Bend Generation in
+//! Deteriorated Films Coated on Metal Objects: Combination of Static Fracture and Position-Based Deformation*, The
+//! Visual Computer, 2023 ("VC" in these pages).
 //!
 //! # Quick start
 //!
-//! Add the plugin, and a [`Coating`](plugin::Coating) to an entity with a mesh or to the root of a scene:
+//! Add the plugin, and a [`Coating`] to an entity with a mesh or to the root of a scene:
 //!
-//! ```no_run
+#![cfg_attr(feature = "plugin", doc = "```no_run")]
+#![cfg_attr(not(feature = "plugin"), doc = "```ignore")]
 //! use bevy::prelude::*;
 //! use bevy_coating::prelude::*;
 //!
@@ -24,7 +25,7 @@
 //!
 //! fn paint(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
 //!     let barrel = meshes.add(Cylinder::new(0.3, 0.9));
-//!     let coating = Coating::preset("heavy").unwrap_or_default().with_seed(7).with_start_age(0.4);
+//!     let coating = Coating::new(Preset::Heavy).with_seed(7).with_start_age(0.4);
 //!     commands.spawn((Mesh3d(barrel), coating));
 //! }
 //!
@@ -35,20 +36,39 @@
 //! }
 //! ```
 //!
+//! Without an engine the same film can be aged step by step:
+//!
+//! ```
+//! use bevy_coating::{prelude::*, remesh::sample, sim::FilmState, stain::Environment};
+//!
+//! let piece = sample::plate(400, 1)?;
+//! let settings = CoatingSettings::from(Preset::Heavy);
+//! let mut film = FilmState::new(&piece.film, &settings, 7, 100).ok_or("an empty film")?;
+//! film.age_to(1.0, &settings, &Environment::default());
+//! assert!(film.forces.torn_edges > 0, "the paint has cracked");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Concepts
 //!
-//! - The **film** is the paint: a half-edge mesh of near-equal triangles over the prop's surface ([`film`]), made in the
-//!   background from any mesh ([`film::build`]). Its parts (mesh, forces, constraints, stains) are components on the prop's entity.
-//! - **Age** is its time: 0 is fresh, 1 the end of the paper's reference run. Every rate is per unit age. A film ages in
-//!   whole steps, by default 1,000 a unit of age, and its state depends on their number alone: at any frame rate and on
-//!   any number of threads the same seed gives the same bits.
-//! - **Settings** steer the stages ([`settings`]): given in code, as a preset, or as a `.coating.ron` asset.
-//! - **Stains** follow ([`stain`]): rust that runs off below cracks, dust, and moisture where it rains, on the film and on
-//!   the metal under it.
-//! - What is **shown** is the film, wearing the prop's own surface, and where it has come off its back in primer and the
-//!   bare metal beneath ([`shown`]).
+//! - **Prop**: an object of the game, whose mesh is metal with paint on it.
+//! - **Film**: the paint. It is a half-edge mesh of nearly equal triangles over the prop's surface ([`film`]), which is
+//!   made in the background from any triangle mesh ([`surface`], [`remesh`]). Its mesh, forces, constraints and stains
+//!   are components on one entity.
+//! - **Age**: the time of a film. 0 is fresh paint, 1 the end of the paper's reference run, and every rate is per unit
+//!   of age. A film ages in whole steps, 1,000 per unit of age by default. Its state depends on the number of steps
+//!   alone: the same seed gives the same bits at any frame rate and on any number of threads.
+//! - **Fracture**: vertices separate from the metal, edges tear into cracks, and loose pieces fall ([`fracture`], VC
+//!   5).
+//! - **Deformation**: separated paint bends and curls ([`deform`], VC 4).
+//! - **Stains**: rust that runs off below cracks, dust, and moisture where it rains, on the film and on the metal under
+//!   it ([`stain`], VC 6).
+//! - **Appearance**: the meshes that are drawn. They are the front of the film with the prop's own attributes, the
+//!   backs of flakes in primer, and the bare metal ([`appearance`]).
+//! - **Settings**: the numbers that steer each stage ([`settings`]). They are given in code, as a
+//!   [`Preset`](settings::Preset), or as a `.coating.ron` asset.
 //!
-//! # The pipeline
+//! # Pipeline
 //!
 //! ```text
 //! Mesh3d + Coating --(in the background: clean, weld, remesh, age to the start age)--> film components
@@ -64,24 +84,31 @@
 //!
 //! # Features
 //!
-//! | feature | default | what it adds |
+//! | feature | default | contents |
 //! |---|---|---|
-//! | `render` | yes | stains in detail (`StainedMaterial`), the backs of flakes and the bare metal; needs `bevy_pbr` |
+//! | `plugin` | yes | the Bevy plugin: components, resources, messages, assets, and meshes that follow their films |
+//! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
+//! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |
+//! | (none) | | with `default-features = false` the simulation alone, which depends on `bevy_math` but not on Bevy |
 //!
 //! # Limits
 //!
-//! - Skinned and morphed meshes and alpha-blended materials are refused with an error that says so
-//!   ([`plugin::CoatingFault`]), and so are materials other than `StandardMaterial` unless [`plugin::StainDisplay`] leaves
-//!   them alone; the prop keeps its mesh. Vertex attributes other than normals, both sets of texture
-//!   coordinates, tangents and colours are not carried over.
-//! - Contact is with the metal alone, and only with the plane under each vertex: on concave or intersecting surfaces film
-//!   may still cut into metal or other film.
-//! - The film takes the prop's world scale when it is built. Later changes of scale stretch what is shown, and shear (a
-//!   rotated child of an unevenly scaled parent) is taken for the nearest scale without it.
-//! - A mesh asset that is edited in place is not followed; a handle that is swapped is.
-
+//! - Skinned and morphed meshes and alpha-blended materials are refused with an error that names the way out
+//!   ([`CoatingFault`]). Materials other than `StandardMaterial` are refused, too, unless [`StainDisplay`] says to leave
+//!   the material alone. A refused prop keeps its mesh.
+//! - Of the vertex attributes only positions, normals, both sets of texture coordinates, tangents and colours are
+//!   carried over to the film.
+//! - A film touches the metal under it only, as a plane under each vertex. On concave or intersecting surfaces film
+//!   may cut into metal or into other film.
+//! - A film takes the prop's world scale when it is built. Later changes of scale stretch the film's mesh. Shear (a
+//!   rotated child of an unevenly scaled parent) is replaced by the nearest scale without it.
+//! - A film follows when the handle of the prop's mesh is replaced, but not when the mesh asset is edited.
+//!
+#![cfg_attr(not(feature = "plugin"), doc = "[`Coating`]: https://docs.rs/bevy_coating")]
+#![cfg_attr(not(feature = "plugin"), doc = "[`CoatingFault`]: https://docs.rs/bevy_coating")]
+#![cfg_attr(not(feature = "plugin"), doc = "[`StainDisplay`]: https://docs.rs/bevy_coating")]
 #![warn(missing_docs)]
-// What a user gives must end in a typed error, never in a panic.
+// Invalid input from a user must end in a typed error, never in a panic.
 #![warn(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::unreachable)]
 
 #[cfg(feature = "plugin")]

@@ -1,4 +1,4 @@
-//! From meshes to the [`Surface`] of a prop.
+//! Reads Bevy meshes: builds the [`Surface`] of a prop from them, and the triangles of shelters.
 
 use bevy::{
     math::{Vec2, Vec3, Vec4},
@@ -10,17 +10,23 @@ use crate::{
     surface::{BuildError, Surface},
 };
 
-/// Corner attributes that a primitive has of its own.
+/// Attributes that the mesh of a primitive has itself. The film's mesh gets the same attributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct SlotAttributes {
+    /// Whether it has normals.
     pub normals: bool,
+    /// Whether it has first texture coordinates.
     pub uvs: bool,
+    /// Whether it has second texture coordinates.
     pub uvs_1: bool,
+    /// Whether it has tangents.
     pub tangents: bool,
+    /// Whether it has vertex colours.
     pub colors: bool,
 }
 
-/// One primitive, converted: what goes into the surface, as far as the mesh has it. Three entries a triangle.
+/// Triangles of one primitive and the attributes of their corners, three entries a triangle. An attribute that the mesh
+/// does not have is empty.
 struct Corners {
     triangles: Vec<[u32; 3]>,
     normals: Vec<Vec3>,
@@ -30,13 +36,14 @@ struct Corners {
     colors: Vec<Vec4>,
 }
 
-/// Joins the primitives of one prop into its surface, scaled by `scale`; gives the attributes of each primitive
-/// too. Where only some have an attribute the others get a neutral value.
+/// Joins the primitives of one prop into its surface, scaled by `scale`, and returns the attributes that each primitive
+/// has. Where only some primitives have an attribute, the others get a neutral value.
 ///
-/// A mirroring scale turns the winding of the triangles, so that they are counter-clockwise from outside again.
+/// If the scale mirrors the prop, the winding of the triangles is reversed, so that they are counter-clockwise seen
+/// from outside again.
 ///
 /// # Errors
-/// [`CoatingFault`] for meshes that are no triangles, cannot be read, or refer to vertices that do not exist.
+/// [`CoatingFault`] for meshes that do not consist of triangles, cannot be read, or have indices out of range.
 pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<SlotAttributes>), CoatingFault> {
     let mut surface = Surface::default();
     let mut slots = Vec::with_capacity(meshes.len());
@@ -48,9 +55,9 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
         let mut corners = corners_of(mesh, positions.len())?;
         corners.scale(scale);
         if mirrored {
-            corners.turn();
+            corners.reverse_winding();
         }
-        // Values of an attribute that earlier primitives lack, and that this one lacks.
+        // Numbers of neutral values for the earlier primitives, and for this one, where they lack an attribute.
         let before = first_triangle * 3;
         let here = corners.triangles.len() * 3;
         surface.positions.extend(positions.iter().map(|&p| Vec3::from_array(p) * scale));
@@ -67,17 +74,17 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
     Ok((surface, slots))
 }
 
-/// Positions and triangles of a mesh, for what needs no more.
+/// Returns the positions and triangles of a mesh.
 ///
 /// # Errors
-/// [`CoatingFault`] for meshes that are no triangles or cannot be read.
+/// [`CoatingFault`] for meshes that do not consist of triangles or cannot be read.
 pub(crate) fn shape_of(mesh: &Mesh) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), CoatingFault> {
     let positions = positions_of(mesh)?;
     Ok((positions.to_vec(), triangles_of(mesh, positions.len())?))
 }
 
-/// Appends `values` to `all`, or `here` times `neutral` if there are none but other primitives have some; gives
-/// whether there are some.
+/// Appends `values` to `all` and returns whether there are any. Without values it appends `here` times `neutral` if
+/// earlier primitives have some; `before` is the length that `all` should have.
 fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize, neutral: T) -> bool {
     let present = !values.is_empty();
     if present {
@@ -90,7 +97,7 @@ fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize,
 }
 
 impl Corners {
-    /// Turns directions as `scale` turns them. An even scale leaves them as they are, to the bit.
+    /// Transforms normals and tangents by `scale`. An even positive scale leaves their bits unchanged.
     fn scale(&mut self, scale: Vec3) {
         if scale.x == scale.y && scale.y == scale.z && scale.x > 0.0 {
             return;
@@ -103,8 +110,8 @@ impl Corners {
         }
     }
 
-    /// Turns the winding of every triangle.
-    fn turn(&mut self) {
+    /// Reverses the winding of every triangle.
+    fn reverse_winding(&mut self) {
         fn swap<T>(values: &mut [T]) {
             for corners in values.chunks_exact_mut(3) {
                 corners.swap(1, 2);
@@ -119,6 +126,7 @@ impl Corners {
     }
 }
 
+/// Returns the positions of a mesh.
 fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], CoatingFault> {
     match mesh.try_attribute(Mesh::ATTRIBUTE_POSITION) {
         Ok(VertexAttributeValues::Float32x3(positions)) => Ok(positions),
@@ -128,6 +136,7 @@ fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], CoatingFault> {
     }
 }
 
+/// Reads the triangles of a mesh and the attributes of their corners, and checks the indices.
 fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
     let triangles = triangles_of(mesh, vertices)?;
     for (i, triangle) in triangles.iter().enumerate() {
@@ -141,7 +150,7 @@ fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
             let found = values.len();
             return Err(CoatingFault::from(BuildError::AttributeLength { attribute: name, found, expected: vertices }));
         }
-        // The indices have been checked against the number of vertices, which is that of the values.
+        // The indices have been checked against the number of vertices, which is the number of values.
         Ok(if values.is_empty() {
             Vec::new()
         } else {
@@ -163,8 +172,8 @@ fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
     })
 }
 
-/// The triangles of a list or strip, with indices or without. What is left over of a list is passed over, as it is
-/// when drawn.
+/// Returns the triangles of a list or strip, with or without indices. Indices left over at the end of a list are
+/// ignored, as they are when the mesh is drawn.
 fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFault> {
     let indices = match mesh.try_indices_option() {
         Ok(Some(Indices::U32(indices))) => indices.iter().map(|&i| (i != u32::MAX).then_some(i)).collect(),
@@ -173,7 +182,7 @@ fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFa
         Err(_) => return Err(CoatingFault::RenderWorldOnly),
     };
     match mesh.primitive_topology() {
-        // The highest index means nothing in a list: there it is out of range like any other.
+        // The highest index restarts strips only; in a list it is an index out of range.
         PrimitiveTopology::TriangleList => {
             Ok(indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|i| i.unwrap_or(u32::MAX))).collect())
         }
@@ -182,7 +191,7 @@ fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFa
     }
 }
 
-/// Triangles of a strip, every second one turned; `None` begins a new strip.
+/// Returns the triangles of a strip; the winding of every second one is reversed. `None` begins a new strip.
 fn strip_triangles(indices: &[Option<u32>]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(indices.len());
     for strip in indices.split(Option::is_none) {
@@ -195,7 +204,10 @@ fn strip_triangles(indices: &[Option<u32>]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// An attribute as floats, with 0, 0, 0, 1 for components it does not have; empty if the mesh does not have it.
+/// Returns an attribute as floats; empty if the mesh does not have it. Missing components are filled from (0, 0, 0, 1).
+///
+/// # Errors
+/// [`CoatingFault::Format`] if the format cannot be read or has fewer than `components` components.
 fn floats_of(
     mesh: &Mesh,
     attribute: MeshVertexAttribute,
@@ -231,14 +243,17 @@ fn floats_of(
     Ok(floats)
 }
 
+/// Converts values of two components.
 fn pairs<T: Copy>(values: &[[T; 2]], float: impl Fn(T) -> f32) -> Vec<Vec4> {
     values.iter().map(|&[x, y]| Vec4::new(float(x), float(y), 0.0, 1.0)).collect()
 }
 
+/// Converts values of four components.
 fn quads<T: Copy>(values: &[[T; 4]], float: impl Fn(T) -> f32) -> Vec<Vec4> {
     values.iter().map(|&v| Vec4::from_array(v.map(&float))).collect()
 }
 
+/// Returns the fault of an attribute with the wrong format.
 fn format_fault(attribute: &'static str, found: &VertexAttributeValues, expected: &'static str) -> CoatingFault {
     let found = format!("{:?}", bevy::mesh::VertexFormat::from(found));
     CoatingFault::Format { attribute, found, expected }

@@ -1,4 +1,4 @@
-//! The Bevy plugin: films as components, stages as systems, the clock, and what is told to the game.
+//! Defines the Bevy plugin, which adds all resources, messages, schedules and systems.
 
 use bevy::{
     app::{App, Plugin, Update},
@@ -24,14 +24,20 @@ use crate::{
     stepping,
 };
 
-/// Ages the paint of every prop with a [`Coating`]. Needs Bevy's `AssetPlugin` and its (main world's) `MeshPlugin`,
-/// which `DefaultPlugins` has, and takes time from [`Time`](bevy::time::Time).
+/// Plugin that ages the paint of every entity with a [`Coating`](crate::api::coating::Coating).
+///
+/// It needs Bevy's `AssetPlugin`, `MeshPlugin` and `TransformPlugin`, which are part of `DefaultPlugins`, and measures
+/// time by [`Time`](bevy::time::Time). To draw stains it must be added after `DefaultPlugins` (or `PbrPlugin`).
 ///
 /// ```
-/// # use bevy::prelude::*;
+/// use bevy::prelude::*;
 /// use bevy_coating::prelude::*;
 ///
-/// App::new().add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, CoatingWeatheringPlugin::default()));
+/// App::new()
+///     // In a game: DefaultPlugins.
+///     .add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin))
+///     .add_plugins(CoatingWeatheringPlugin::default())
+///     .update();
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CoatingWeatheringPlugin {
@@ -39,15 +45,27 @@ pub struct CoatingWeatheringPlugin {
 }
 
 impl CoatingWeatheringPlugin {
-    /// The plugin, with the steps of a frame taken in `schedule`.
+    /// Returns the plugin with the steps of a frame taken in `schedule`. The [default](Self::default) is [`Update`].
+    ///
+    /// ```
+    /// use bevy::prelude::*;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// let mut app = App::new();
+    /// app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+    /// app.add_plugins(CoatingWeatheringPlugin::new(PreUpdate));
+    /// app.update();
+    /// ```
     pub fn new(schedule: impl ScheduleLabel) -> Self {
         Self { schedule: schedule.intern() }
     }
 }
 
 impl Default for CoatingWeatheringPlugin {
-    /// Steps are taken in [`Update`]: they are counted out of elapsed time anyway, so a fixed timestep would add
-    /// nothing, and one that has fallen behind would run the budget several times in one frame.
+    /// Returns the plugin with the steps taken in [`Update`].
+    ///
+    /// Steps are counted out of elapsed time anyway, so a fixed timestep would gain nothing. A fixed timestep that has
+    /// fallen behind would even spend the budget several times in one frame.
     fn default() -> Self {
         Self::new(Update)
     }

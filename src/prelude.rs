@@ -1,4 +1,6 @@
-//! All that most games need: `use bevy_coating::prelude::*;`
+//! Exports the names that most games need: `use bevy_coating::prelude::*;`
+//!
+//! Further names of the plugin are at the root of the crate, for example `bevy_coating::CoatingAdvance`.
 
 #[cfg(feature = "plugin")]
 pub use crate::{

@@ -1,4 +1,4 @@
-//! Assets that may still be on their way.
+//! Looks up assets that may still be loading.
 
 use bevy::{
     asset::{Asset, AssetServer, Assets, Handle, UntypedAssetId},
@@ -7,10 +7,13 @@ use bevy::{
 
 use super::error::CoatingFault;
 
-/// `None` while something has to be waited for.
+/// Result of a look-up: `None` while something is still loading.
 pub(crate) type Waited<T> = Result<Option<T>, CoatingFault>;
 
-/// The asset of `handle`; `None` while it is being loaded.
+/// Returns the asset of `handle`; `None` while it is loading.
+///
+/// # Errors
+/// `failed` if the asset server could not load it.
 pub(crate) fn loaded<'w, A: Asset>(world: &'w World, handle: &Handle<A>, failed: CoatingFault) -> Waited<&'w A> {
     if let Some(asset) = world.get_resource::<Assets<A>>().and_then(|assets| assets.get(handle)) {
         return Ok(Some(asset));

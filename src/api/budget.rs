@@ -1,4 +1,4 @@
-//! The budget that keeps frames short.
+//! Defines [`CoatingBudget`], the limit on ageing in one frame.
 
 use std::time::Duration;
 
@@ -7,25 +7,42 @@ use bevy::{
     reflect::prelude::*,
 };
 
-/// How much ageing may be done in one frame. Where the steps of all films do not fit, near and large ones (radius over
-/// distance to the nearest active camera) come first and the others wait, up to 16 times longer; they take what they owe
-/// together when it is their turn, up to four frames' worth of [`max_steps`](Self::max_steps). What a film whose turn it
-/// is cannot take is dropped: a slow machine ages slower, at even pace, rather than stutters. At least one step is
-/// always taken. Requested steps are never dropped, but wait.
+/// Limit on the time and the steps that ageing may take in one frame.
+///
+/// When the steps of all films do not fit into a frame, films that are large in the view of the nearest active camera
+/// (radius over distance) step first and the others are postponed. A film far away is postponed up to 16 times longer
+/// than one that fills the view. A postponed film keeps the steps that the clock owes it, up to four frames' worth of
+/// [`max_steps`](Self::max_steps), and takes them together later.
+///
+/// Steps that do not fit for a film that was not postponed are dropped: on a slow machine paint ages more slowly
+/// instead of making frames stutter. At least one step is taken in a frame in which any is due. Steps that were
+/// [requested](super::clock::CoatingClock::request_steps) are never dropped.
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.insert_resource(CoatingBudget { max_time: Duration::from_millis(2), ..CoatingBudget::default() });
+/// ```
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingBudget {
-    /// Wall time a frame after which no further step is begun. Default 4 ms.
+    /// Wall time of a frame's steps after which no further step is begun. Default 4 ms.
     pub max_time: Duration,
-    /// Steps a frame of the fastest film. Default 16.
+    /// Most steps that a film may take in one frame; 0 counts as 1. Default 16.
     pub max_steps: u32,
-    /// What a step of a thousand moving vertices is taken to cost. `None` (the default): measured as the game runs. With
-    /// it, which steps fit into a frame does not depend on the machine: for replays and tests.
+    /// Assumed cost of one step of a film with a thousand moving vertices. `None`, the default, measures it as the game
+    /// runs. With a fixed cost the steps that fit into a frame do not depend on the machine, as replays and tests need.
     pub fixed_cost: Option<Duration>,
 }
 
 impl CoatingBudget {
-    /// No limit: for tools and tests.
+    /// Budget without limits, for tools and tests.
     pub const UNLIMITED: Self = Self { max_time: Duration::MAX, max_steps: u32::MAX, fixed_cost: None };
 }
 

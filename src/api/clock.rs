@@ -1,4 +1,4 @@
-//! The clock that all films share, and the gravity they feel.
+//! Defines the clock that all films share, and the direction of gravity.
 
 use bevy::{
     ecs::{reflect::ReflectResource, resource::Resource},
@@ -6,24 +6,44 @@ use bevy::{
     reflect::prelude::*,
 };
 
-/// Age per second when nothing else is set: 50 seconds from fresh to the end of the reference run.
+/// Default of [`CoatingClock::age_per_second`]: 50 seconds from fresh paint (age 0) to age 1.
 pub const DEFAULT_AGE_PER_SECOND: f64 = 0.02;
 
-/// How fast paint ages.
+/// Speed at which paint ages, for all films.
 ///
-/// Seconds become whole steps, film by film; a film's state depends on the number of its steps alone, never on
-/// frames or on time.
+/// Elapsed seconds become whole steps of each film. The state of a film depends on the number of its steps alone,
+/// not on the frame rate.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// /// Ages all paint from fresh to age 1 in ten minutes, and stops there.
+/// fn set_speed(mut clock: ResMut<CoatingClock>) {
+///     clock.age_per_second = 1.0 / 600.0;
+///     clock.target_age = Some(1.0);
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Startup, set_speed);
+/// app.update();
+/// # assert_eq!(app.world().resource::<CoatingClock>().target_age, Some(1.0));
+/// ```
 #[derive(Resource, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingClock {
-    /// Age given out per second of [`Time`](bevy::time::Time). 0 or more, default [`DEFAULT_AGE_PER_SECOND`].
+    /// Age gained per second of [`Time`](bevy::time::Time). 0 or more (negative speeds and NaN age nothing), default
+    /// [`DEFAULT_AGE_PER_SECOND`].
     pub age_per_second: f64,
-    /// Whether ageing stands still, but for [requested steps](Self::request_steps). Default false.
+    /// Whether the clock stands still; [requested steps](Self::request_steps) are still taken. Default false.
     pub paused: bool,
-    /// Age at which films stop, also for requested steps; films that are older stay as they are. `None` (the
-    /// default): they go on, beyond age 1 too.
+    /// Age at which films stop ageing, also by requested steps. Films that are older stay as they are. `None`, the
+    /// default, lets films age without end, also beyond age 1.
     pub target_age: Option<f64>,
-    /// Steps [requested](Self::request_steps) since the last frame, which hands them to the films. Default 0.
+    /// Steps [requested](Self::request_steps) since the last frame. The next frame hands them to the films and sets
+    /// this to 0. Default 0.
     pub requested_steps: u64,
 }
 
@@ -34,15 +54,36 @@ impl Default for CoatingClock {
 }
 
 impl CoatingClock {
-    /// Has every film that is ready take `steps` steps more, paused or not, spread over as many frames as the
-    /// budget takes.
+    /// Requests `steps` further steps from every film that is ready, paused or not. They are spread over as many frames
+    /// as the [budget](super::budget::CoatingBudget) needs.
+    ///
+    /// ```
+    /// use bevy_coating::CoatingClock;
+    ///
+    /// let mut clock = CoatingClock { paused: true, ..CoatingClock::default() };
+    /// clock.request_steps(10);
+    /// assert_eq!(clock.requested_steps, 10);
+    /// ```
     pub fn request_steps(&mut self, steps: u64) {
         self.requested_steps = self.requested_steps.saturating_add(steps);
     }
 }
 
-/// Direction of gravity in the world; need not be of unit length. It decides where rust comes out of a crack and runs
-/// off, where dust settles, and which side of a crack's end keeps its vertex. Default: down, -y. Zero is weightlessness.
+/// Direction of gravity in the world, of any length. Default: -y. Zero means weightlessness: nothing runs off.
+///
+/// Gravity decides where rust comes out of a crack and runs off, where dust settles, and which side of a crack's end
+/// keeps its vertex.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// // A world in which z points up.
+/// app.insert_resource(CoatingGravity(Vec3::NEG_Z));
+/// ```
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingGravity(pub Vec3);

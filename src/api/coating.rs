@@ -1,4 +1,4 @@
-//! [`Coating`]: all that a user adds to an entity to have its paint age.
+//! Defines [`Coating`], the component that makes the paint of an entity age.
 
 use bevy::{
     asset::Handle,
@@ -14,44 +14,69 @@ use crate::{
     settings::{CoatingSettings, Preset, SettingsError},
     sim::DEFAULT_STEPS_PER_AGE,
 };
-/// Triangles of a film when nothing else is set.
+
+/// Default number of triangles of a film.
 pub const DEFAULT_TRIANGLES: u32 = 4000;
 
-/// Paint that ages, on an entity with a [`Mesh3d`](bevy::mesh::Mesh3d) or on the root of a scene: then on every
-/// mesh below it, also on those that arrive later. Where entities with a `Coating` are nested the nearest one
-/// counts.
+/// Paint that ages, on an entity with a [`Mesh3d`](bevy::mesh::Mesh3d) or on the root of a scene.
 ///
-/// Meshes on sibling entities that all stand on their parent with an identity transform, as the primitives of
-/// one glTF node do, are painted as one: they share a film, which lives on their parent. Otherwise the film lives on
-/// the entity of the mesh. Where the film is ready, that entity has [`CoatedBy`](super::CoatedBy).
+/// On the root of a scene it coats every mesh below, also meshes that are spawned later. Where entities with a
+/// `Coating` are nested, the nearest one above a mesh counts.
 ///
-/// The prop shows its own mesh until the film has been built in the background, and gets it back when the
-/// `Coating` is removed. `rate`, `paused`, `settings`, `quality`, `shelter` and the looks may be changed at any time;
-/// changing any other field builds the film anew. To start over with fresh paint, remove the `Coating` and insert it again.
+/// Sibling meshes that all have an identity transform, like the primitives of one glTF node, share one film, which is
+/// on their parent's entity. Otherwise the film is on the entity of the mesh. The entity of a film has
+/// [`CoatedBy`](super::links::CoatedBy) from the moment its film is being built.
+///
+/// The prop keeps its own mesh until the film has been built in the background, and gets it back when the `Coating` is
+/// removed. The fields `rate`, `paused`, `settings`, `quality`, `shelter`, `stain_display` and `shading` may be changed
+/// at any time. A change of another field builds the film again. For fresh paint remove the `Coating` and insert it
+/// again.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn paint(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>) {
+///     let barrel = meshes.add(Cylinder::new(0.3, 0.9));
+///     let coating = Coating::new(Preset::Heavy).with_seed(7).with_start_age(0.4);
+///     commands.spawn((Mesh3d(barrel), coating));
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Startup, paint);
+/// app.update();
+/// # assert_eq!(app.world().resource::<CoatingStatus>().refused, 0);
+/// ```
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
-    /// How the paint ages. Default: [`CoatingSettings::default`].
+    /// Settings of the ageing. Default: [`CoatingSettings::default`].
     pub settings: SettingsSource,
-    /// Seed of everything random: remeshing, adhesion and weak edges. Default 0.
+    /// Seed of all random choices: remeshing, adhesion, weak edges and patterns of stains. Default 0.
     pub seed: u64,
-    /// How fine each film is. Default: [`DEFAULT_TRIANGLES`] triangles.
+    /// Resolution of each film. Default: [`DEFAULT_TRIANGLES`] triangles.
     pub resolution: FilmResolution,
-    /// Age gained per age that the clock gives out. 0 or more, default 1.
+    /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 or more and finite, default 1.
     pub rate: f64,
-    /// Whether this prop stands still. Default false.
+    /// Whether this prop stops ageing; [requested steps](super::clock::CoatingClock::request_steps) are still taken.
+    /// Default false.
     pub paused: bool,
-    /// Age at which the prop appears; aged in the background. 0 or more, default 0 (fresh).
+    /// Age to which the film is aged in the background before the prop shows it. 0 or more and finite, default 0
+    /// (fresh).
     pub start_age: f64,
-    /// Steps per unit age. At least 1, default 1000. More is slower, not better: the result hardly depends on it.
+    /// Number of steps per unit of age. At least 1, default 1000. The result hardly depends on it; more steps cost
+    /// more.
     pub steps_per_age: u32,
-    /// How much work goes into bending. Default: [`SolverQuality::Default`].
+    /// Quality of the solver that bends the film. Default: [`SolverQuality::Default`].
     pub quality: SolverQuality,
-    /// What decides how much rain and sun reaches the prop. Default: [what stands around it](Shelter::Scene).
+    /// Source of the prop's exposure to rain and sun. Default: [`Shelter::Scene`].
     pub shelter: Shelter,
-    /// How stains are shown on the paint. Default: with a material of their own.
+    /// Way in which stains are drawn on the paint. Default: [`StainDisplay::Material`].
     pub stain_display: StainDisplay,
-    /// Colours and strengths of stains, of the metal under the paint and of the paint's back.
+    /// Colours and strengths of stains, of the metal under the paint and of the paint's back. Default:
+    /// [`FilmShading::default`].
     pub shading: FilmShading,
 }
 
@@ -74,76 +99,136 @@ impl Default for Coating {
 }
 
 impl Coating {
-    /// A coating with `settings`.
+    /// Returns a coating with `settings`: a [`Preset`], [`CoatingSettings`], or the handle of a settings asset.
+    ///
+    /// ```
+    /// use bevy_coating::prelude::*;
+    ///
+    /// let preset = Coating::new(Preset::Gentle);
+    /// let mut settings = CoatingSettings::from(Preset::Gentle);
+    /// settings.adhesion.mean = 1.8;
+    /// assert_ne!(Coating::new(settings).settings, preset.settings);
+    /// ```
     pub fn new(settings: impl Into<SettingsSource>) -> Self {
         Self { settings: settings.into(), ..Self::default() }
     }
 
-    /// Returns a coating with the settings of the [preset](Preset) of this name. Where the name is known when the code is
-    /// written, `Coating::new(Preset::Heavy)` leaves no room for a typo.
+    /// Returns a coating with the settings of the [preset](Preset) called `name`, for names that users type. In code
+    /// [`Coating::new(Preset::Heavy)`](Self::new) is simpler, as it cannot fail.
     ///
     /// # Errors
-    /// [`SettingsError`] that lists the presets there are.
+    /// [`SettingsError`] with a list of the presets, if none is called `name`.
+    ///
+    /// ```
+    /// use bevy_coating::prelude::*;
+    ///
+    /// assert_eq!(Coating::preset("heavy"), Ok(Coating::new(Preset::Heavy)));
+    /// assert!(Coating::preset("haevy").is_err());
+    /// ```
     pub fn preset(name: &str) -> Result<Self, SettingsError> {
         Ok(Self::new(CoatingSettings::preset(name)?))
     }
 
-    /// Sets the seed.
+    /// Sets the [`seed`](Self::seed) of all random choices.
     pub fn with_seed(self, seed: u64) -> Self {
         Self { seed, ..self }
     }
 
-    /// Sets how fine each film is, in triangles.
+    /// Sets the [`resolution`](Self::resolution) to about `triangles` triangles. At least 4.
     pub fn with_triangles(self, triangles: u32) -> Self {
         self.with_resolution(FilmResolution::Triangles(triangles))
     }
 
-    /// Sets how fine each film is.
+    /// Sets the [`resolution`](Self::resolution) of each film.
+    ///
+    /// ```
+    /// use bevy_coating::{prelude::*, remesh::FilmResolution};
+    ///
+    /// let even = Coating::default().with_resolution(FilmResolution::EdgeLength(0.02));
+    /// assert_eq!(even.resolution, FilmResolution::EdgeLength(0.02));
+    /// assert_eq!(Coating::default().with_triangles(900).resolution, FilmResolution::Triangles(900));
+    /// ```
     pub fn with_resolution(self, resolution: FilmResolution) -> Self {
         Self { resolution, ..self }
     }
 
-    /// Sets the age gained per age that the clock gives out.
+    /// Sets the [`rate`](Self::rate), the factor on the speed of the clock.
     pub fn with_rate(self, rate: f64) -> Self {
         Self { rate, ..self }
     }
 
-    /// Sets the age at which the prop appears.
+    /// Sets the [`start_age`](Self::start_age) at which the prop first shows its film.
+    ///
+    /// ```
+    /// use bevy_coating::prelude::*;
+    ///
+    /// // A wreck that hardly changes any more.
+    /// let wreck = Coating::new(Preset::Heavy).with_start_age(0.9).with_rate(0.05);
+    /// assert_eq!((wreck.start_age, wreck.rate), (0.9, 0.05));
+    /// ```
     pub fn with_start_age(self, start_age: f64) -> Self {
         Self { start_age, ..self }
     }
 
-    /// Sets the steps per unit age.
+    /// Sets the number of [`steps_per_age`](Self::steps_per_age).
     pub fn with_steps_per_age(self, steps_per_age: u32) -> Self {
         Self { steps_per_age, ..self }
     }
 
-    /// Sets how much work goes into bending.
+    /// Sets the [`quality`](Self::quality) of bending.
     pub fn with_quality(self, quality: SolverQuality) -> Self {
         Self { quality, ..self }
     }
 
-    /// Sets what decides how much rain and sun reaches the prop.
+    /// Sets the [`shelter`](Self::shelter), the source of the prop's exposure to rain and sun.
     pub fn with_shelter(self, shelter: Shelter) -> Self {
         Self { shelter, ..self }
     }
 
-    /// Sets how stains are shown on the paint.
+    /// Sets the [`stain_display`](Self::stain_display), the way in which stains are drawn on the paint.
     pub fn with_stain_display(self, stain_display: StainDisplay) -> Self {
         Self { stain_display, ..self }
     }
 
-    /// Sets how all that shows is shaded.
+    /// Sets the whole [`shading`](Self::shading).
+    ///
+    /// ```
+    /// use bevy_coating::prelude::*;
+    ///
+    /// // One shading for a whole harbour.
+    /// let shading = FilmShading {
+    ///     stains: StainShading { rust_strength: 0.6, ..StainShading::default() },
+    ///     ..FilmShading::default()
+    /// };
+    /// let [crane, boat] = [1, 2].map(|seed| Coating::default().with_seed(seed).with_shading(shading.clone()));
+    /// assert_eq!(crane.shading, boat.shading);
+    /// ```
     pub fn with_shading(self, shading: FilmShading) -> Self {
         Self { shading, ..self }
     }
 
-    /// Sets the back of the paint: a [`PrimerShading`], or a colour.
+    /// Sets the shading of the back of the paint: a [`PrimerShading`], or a colour.
+    ///
+    /// ```
+    /// use bevy::color::Color;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// let red_lead = Coating::default().with_primer(Color::srgb(0.55, 0.22, 0.15));
+    /// assert_eq!(red_lead.shading.primer.roughness, PrimerShading::default().roughness);
+    /// ```
     pub fn with_primer(self, primer: impl Into<PrimerShading>) -> Self {
         Self { shading: FilmShading { primer: primer.into(), ..self.shading }, ..self }
     }
 
-    /// Sets the metal under the paint.
+    /// Sets the shading of the metal under the paint.
+    ///
+    /// ```
+    /// use bevy::color::Color;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// let brass = MetalShading::default().with_steel(Color::srgb(0.78, 0.63, 0.32));
+    /// assert_eq!(Coating::default().with_metal(brass.clone()).shading.metal, brass);
+    /// ```
     pub fn with_metal(self, metal: MetalShading) -> Self {
         Self { shading: FilmShading { metal, ..self.shading }, ..self }
     }
@@ -153,7 +238,7 @@ impl Coating {
         Self { shading: FilmShading { stains, ..self.shading }, ..self }
     }
 
-    /// What a film must be built anew for when it changes.
+    /// Returns the fields whose change makes it necessary to build the film again.
     pub(crate) fn key(&self) -> FilmKey {
         FilmKey {
             seed: self.seed,
@@ -164,7 +249,7 @@ impl Coating {
     }
 }
 
-/// The fields of a [`Coating`] that go into building a film.
+/// Fields of a [`Coating`] that decide how a film is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FilmKey {
     pub seed: u64,
@@ -173,14 +258,33 @@ pub(crate) struct FilmKey {
     pub steps_per_age: u32,
 }
 
-/// Where the settings of a coating come from.
+/// Source of a coating's settings.
+///
+/// [`CoatingSettings`], a [`Preset`] and a [`Handle`] convert into it.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn paint(mut commands: Commands, assets: Res<AssetServer>, mut meshes: ResMut<Assets<Mesh>>) {
+///     let settings: Handle<CoatingSettings> = assets.load("hull.coating.ron");
+///     let source = SettingsSource::from(settings);
+///     commands.spawn((Mesh3d(meshes.add(Sphere::new(1.0))), Coating::new(source)));
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Startup, paint);
+/// app.update();
+/// ```
 #[derive(Clone, Debug, PartialEq, Reflect)]
 #[reflect(Default, Debug, Clone, PartialEq)]
 pub enum SettingsSource {
-    /// Given here.
+    /// Settings that are stored in the component.
     Inline(CoatingSettings),
-    /// An asset, as loaded from a `.coating.ron` file. The film is built when it has been loaded, and follows
-    /// when it changes.
+    /// Settings asset, for example of a `.coating.ron` file. The film is built once it has loaded, and takes over later
+    /// changes of the asset.
     Asset(Handle<CoatingSettings>),
 }
 

@@ -1,4 +1,24 @@
-//! Diagnostics: wall time of each stage a frame, grouped as in the paper's Table 1, and the number of films.
+//! Publishes Bevy diagnostics: wall time of each stage in a frame, grouped as in VC table 1, and the number of films.
+//!
+//! ```
+//! use bevy::{diagnostic::DiagnosticsStore, prelude::*};
+//! use bevy_coating::{diagnostics, prelude::*};
+//!
+//! /// Prints the time that bending took, as a mean over some frames.
+//! fn print_bending(store: Res<DiagnosticsStore>) {
+//!     if let Some(milliseconds) = store.get(&diagnostics::DEFORMATION).and_then(|stage| stage.smoothed()) {
+//!         println!("bending: {milliseconds:.2} ms");
+//!     }
+//! }
+//!
+//! # let mut app = App::new();
+//! # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+//! # app.add_plugins(CoatingWeatheringPlugin::default());
+//! app.add_systems(Update, print_bending);
+//! app.update();
+//! # let store = app.world().resource::<DiagnosticsStore>();
+//! # assert_eq!(store.get(&diagnostics::FILMS).and_then(|films| films.value()), Some(0.0));
+//! ```
 
 use bevy::{
     app::{App, Last},
@@ -11,19 +31,20 @@ use bevy::{
 
 use super::status::CoatingStatus;
 use crate::sim::{Stage, StageTimes};
-/// Milliseconds a frame spent on forces, separation, tearing, stripping and setting of constraints.
+
+/// Milliseconds of a frame spent on fracture: forces, separation, tearing, stripping and updates of the constraints.
 pub const FRACTURE: DiagnosticPath = DiagnosticPath::const_new("coating/fracture");
-/// Milliseconds a frame spent on PBD-2.
+/// Milliseconds of a frame spent on bending the film (PBD-2, VC 4).
 pub const DEFORMATION: DiagnosticPath = DiagnosticPath::const_new("coating/deformation");
-/// Milliseconds a frame spent on generating meshes for display.
+/// Milliseconds of a frame spent on generating the meshes that are drawn.
 pub const MESH_GENERATION: DiagnosticPath = DiagnosticPath::const_new("coating/mesh_generation");
-/// Milliseconds a frame spent on stains.
+/// Milliseconds of a frame spent on stains.
 pub const STAINS: DiagnosticPath = DiagnosticPath::const_new("coating/stains");
-/// Milliseconds a frame spent on all else: clocks, messages, bookkeeping.
+/// Milliseconds of a frame spent on everything else: clocks, messages, bookkeeping.
 pub const OTHER: DiagnosticPath = DiagnosticPath::const_new("coating/other");
-/// Films that are ready.
+/// Number of films that are ready.
 pub const FILMS: DiagnosticPath = DiagnosticPath::const_new("coating/films");
-/// Films that took a step in the frame.
+/// Number of films that took a step in the frame.
 pub const STEPPED: DiagnosticPath = DiagnosticPath::const_new("coating/stepped");
 
 const STAGES: [(Stage, DiagnosticPath); 5] = [
@@ -34,7 +55,7 @@ const STAGES: [(Stage, DiagnosticPath); 5] = [
     (Stage::Other, OTHER),
 ];
 
-/// Time spent in this frame.
+/// Time that each stage has taken in this frame.
 #[derive(Resource, Debug, Default)]
 pub(crate) struct CoatingTimings(StageTimes);
 
@@ -45,6 +66,7 @@ impl CoatingTimings {
     }
 }
 
+/// Registers the diagnostics and publishes them in [`Last`].
 pub(crate) fn add_diagnostics(app: &mut App) {
     app.init_resource::<CoatingTimings>();
     for (_, path) in STAGES {

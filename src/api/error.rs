@@ -1,88 +1,99 @@
-//! Why a prop could not be coated.
+//! Defines the errors with which a prop is refused.
 
 use bevy::{ecs::entity::Entity, mesh::PrimitiveTopology};
 
 use crate::{settings::SettingsError, surface::BuildError};
 
-/// Why a prop could not be coated. It keeps its own mesh and material.
+/// Error that says why a prop could not be coated. The prop keeps its own mesh and material.
+///
+/// It is logged and sent as [`FilmFailed`](super::messages::FilmFailed).
+///
+/// ```
+/// use bevy::prelude::Entity;
+/// use bevy_coating::prelude::*;
+///
+/// let error = CoatingError { entity: Entity::PLACEHOLDER, cause: CoatingFault::NoPositions };
+/// assert!(error.to_string().ends_with("its mesh has no positions (`Mesh::ATTRIBUTE_POSITION`)"));
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("entity {entity} cannot be coated: {cause}")]
 pub struct CoatingError {
     /// Entity of the mesh, or of the node whose meshes would have shared a film.
     pub entity: Entity,
-    /// What is wrong, and the way out.
+    /// Fault of the prop; its text names the way out.
     pub cause: CoatingFault,
 }
 
-/// What is wrong with a prop, and the way out.
+/// Fault of a prop that cannot be coated. Its text says what is wrong and how to mend it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CoatingFault {
-    /// The mesh follows a skeleton.
+    /// Mesh that follows a skeleton.
     #[error("its mesh is skinned; coat the rigid parts, or bake the pose into a mesh without joints")]
     Skinned,
-    /// The mesh has morph targets in use.
+    /// Mesh with morph targets in use.
     #[error("its mesh is morphed; bake the shape into a mesh without morph targets")]
     Morphed,
-    /// The material is see-through.
+    /// Material that is alpha-blended.
     #[error(
         "its material is alpha-blended; use `AlphaMode::Opaque` or `AlphaMode::Mask`, or coat the other parts only"
     )]
     AlphaBlended,
-    /// The material is not `StandardMaterial`, and stains are to be shown by a material.
+    /// Material other than `StandardMaterial`, while stains are to be drawn by a material
+    /// ([`StainDisplay::Material`](super::stain_display::StainDisplay::Material)).
     #[error(
-        "it has material type {material}; only `StandardMaterial` can be replaced by one with stains: set `Coating::stain_display` to \
-         `StainDisplay::VertexColor` or `StainDisplay::None`, which leave the material alone"
+        "it has material type {material}; only `StandardMaterial` can be replaced by one with stains: set \
+         `Coating::stain_display` to `StainDisplay::VertexColor` or `StainDisplay::None`, which leave the material alone"
     )]
     CustomMaterial {
         /// Type path of the material component.
         material: String,
     },
-    /// The mesh asset could not be loaded.
+    /// Mesh asset that could not be loaded.
     #[error("its mesh could not be loaded; see the asset server's error")]
     MeshNotLoaded,
-    /// The material asset could not be loaded.
+    /// Material asset that could not be loaded.
     #[error("its material could not be loaded; see the asset server's error")]
     MaterialNotLoaded,
-    /// The settings asset could not be loaded.
+    /// Settings asset that could not be loaded.
     #[error("its settings could not be loaded; see the asset server's error")]
     SettingsNotLoaded,
-    /// A setting is out of its range.
+    /// Setting that is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
-    /// A field of `Coating` is out of its range.
+    /// Field of `Coating` that is out of its range.
     #[error("`Coating::{field}` is {found}, but must be {range}")]
     Field {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value of the field.
         found: f64,
-        /// What it may be.
+        /// Range of values that are allowed.
         range: &'static str,
     },
-    /// The mesh consists of points or lines.
+    /// Mesh of points or lines instead of triangles.
     #[error("its mesh is a {0:?}, not of triangles")]
     NotTriangles(PrimitiveTopology),
-    /// The mesh has been handed over to the GPU.
+    /// Mesh whose data is on the GPU only.
     #[error("its mesh is in the render world only; load it with `RenderAssetUsages::MAIN_WORLD` as well")]
     RenderWorldOnly,
-    /// The mesh has no positions.
+    /// Mesh without positions.
     #[error("its mesh has no positions (`Mesh::ATTRIBUTE_POSITION`)")]
     NoPositions,
-    /// An attribute has a format that cannot be read.
+    /// Vertex attribute of a format that cannot be read.
     #[error("its mesh has {attribute} of format {found}, which must be {expected}")]
     Format {
-        /// The attribute.
+        /// Name of the attribute.
         attribute: &'static str,
-        /// Its format.
+        /// Format of the attribute.
         found: String,
-        /// What can be read.
+        /// Formats that can be read.
         expected: &'static str,
     },
-    /// The prop's world scale is zero or not finite along an axis.
+    /// World scale of the prop that is zero or not finite along an axis: its x, y and z.
     #[error("its world scale is ({0}, {1}, {2}); no axis may be zero, NaN or infinite")]
     Scale(f32, f32, f32),
-    /// The film could not be built.
+    /// Surface of which no film could be built.
     #[error(transparent)]
     Build(#[from] BuildError),
 }

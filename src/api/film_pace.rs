@@ -1,4 +1,4 @@
-//! How a film steps.
+//! Defines [`FilmPace`], the stepping state of one film.
 
 use std::sync::Arc;
 
@@ -6,44 +6,48 @@ use bevy::{ecs::component::Component, math::Vec3};
 
 use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
 
-/// How a film steps: what its coating and its place in the world ask for, and the steps it is due.
+/// Stepping state of one film, on its entity: the settings and the environment of its steps, and the steps that it
+/// owes.
+///
+/// The plugin inserts it when the film is ready and keeps it up to date with the [`Coating`](super::coating::Coating).
 #[derive(Component, Clone, Debug)]
 pub struct FilmPace {
-    /// Settings in force.
+    /// Settings with which the film steps.
     pub settings: Arc<CoatingSettings>,
-    /// How bending is solved.
+    /// Quality of the solver that bends the film.
     pub quality: SolverQuality,
-    /// Age gained per age that the clock gives out.
+    /// Factor on the speed of the clock.
     pub rate: f64,
-    /// Whether this film stands still.
+    /// Whether the film takes no steps but requested ones.
     pub paused: bool,
-    /// Gravity and weather in the film's space.
+    /// Gravity and weather in the film's space, renewed every frame.
     pub environment: Environment,
-    /// Steps owed by the clock.
+    /// Steps that the clock owes the film; the fraction is carried over to the next frame.
     pub(crate) owed: f64,
-    /// Steps asked for one by one.
+    /// Steps that were requested and not taken yet.
     pub(crate) requested: u64,
     /// Steps planned in this frame.
     pub(crate) planned: u64,
     /// Steps taken in this frame.
     pub(crate) taken: u64,
-    /// Whether the film waits until it is known what shelters it.
+    /// Whether the film has steps to take, but waits until its exposure to rain and sun is known.
     pub(crate) held: bool,
     /// Whether the film takes the step that is under way.
     pub(crate) due: bool,
     /// Whether the first crack has been reported.
     pub(crate) cracked: bool,
-    /// Middle and radius of the film at rest, in its own space.
+    /// Centre and radius of a sphere around the film at rest, in its own space.
     pub(crate) bounds: (Vec3, f32),
-    /// Gained while it waits for its turn.
+    /// Priority that the film has gained while it was postponed.
     pub(crate) credit: f32,
-    /// Whether the frame has no time for it.
-    pub(crate) waits: bool,
-    /// What a step is taken to cost, in moving vertices.
+    /// Whether the film takes no steps in this frame because the budget has no time for it.
+    pub(crate) postponed: bool,
+    /// Assumed cost of a step, in moving vertices.
     pub(crate) cost: u64,
 }
 
 impl FilmPace {
+    /// Returns the pace of a film that has taken no steps. `cracked` says whether it has cracks already.
     pub(crate) fn new(settings: Arc<CoatingSettings>, cracked: bool) -> Self {
         Self {
             settings,
@@ -60,13 +64,31 @@ impl FilmPace {
             cracked,
             bounds: (Vec3::ZERO, 0.0),
             credit: 0.0,
-            waits: false,
+            postponed: false,
             cost: 0,
         }
     }
 
-    /// Whether the film takes the step that is under way. For systems in
-    /// [`CoatingStep`](super::system_sets::CoatingStep).
+    /// Returns whether the film takes the step that is under way. Systems in
+    /// [`CoatingStep`](super::system_sets::CoatingStep) skip the films for which it is false.
+    ///
+    /// ```
+    /// use bevy::prelude::*;
+    /// use bevy_coating::{FilmPace, prelude::*};
+    ///
+    /// /// Notes when each film last took a step.
+    /// fn note_age(films: Query<(&FilmPace, &FilmClock)>) {
+    ///     for (_, clock) in films.iter().filter(|(pace, _)| pace.is_due()) {
+    ///         debug!("a film is {:.3} old", clock.age());
+    ///     }
+    /// }
+    ///
+    /// # let mut app = App::new();
+    /// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+    /// # app.add_plugins(CoatingWeatheringPlugin::default());
+    /// app.add_systems(CoatingStep, note_age.after(CoatingSystems::Report));
+    /// app.update();
+    /// ```
     pub fn is_due(&self) -> bool {
         self.due
     }

@@ -1,4 +1,4 @@
-//! What the plugin tells.
+//! Defines the messages that the plugin sends.
 
 use bevy::{
     ecs::{entity::Entity, message::Message},
@@ -7,52 +7,139 @@ use bevy::{
 
 use super::error::CoatingError;
 use crate::surface::BuildWarning;
-/// A film is ready, and its prop shows it.
+
+/// Message that a film has been built and its prop shows it.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn greet(mut ready: MessageReader<FilmReady>) {
+///     for film in ready.read() {
+///         info!("{} is painted with {} triangles", film.entity, film.triangles);
+///         for warning in &film.warnings {
+///             warn!("{warning}");
+///         }
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, greet);
+/// # let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+/// # app.world_mut().spawn((Mesh3d(mesh), Coating::default().with_triangles(200)));
+/// # for _ in 0..60_000 {
+/// #     app.update();
+/// #     if !app.world().resource::<Messages<FilmReady>>().is_empty() {
+/// #         return;
+/// #     }
+/// #     std::thread::sleep(std::time::Duration::from_millis(1));
+/// # }
+/// # panic!("no film was built");
+/// ```
 #[derive(Message, Clone, Debug)]
 pub struct FilmReady {
     /// Entity of the film.
     pub entity: Entity,
-    /// Entity whose `Coating` it is.
+    /// Entity with the film's `Coating`.
     pub root: Entity,
-    /// Triangles of the film.
+    /// Number of triangles of the film.
     pub triangles: usize,
-    /// What was put right in the prop's mesh, or could not be met.
+    /// Faults of the prop's mesh that were mended, and requests that could not be met exactly.
     pub warnings: Vec<BuildWarning>,
 }
 
-/// A mesh could not be coated. It stays as it is.
+/// Message that a mesh could not be coated. The prop keeps its own mesh and material.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn complain(mut failed: MessageReader<FilmFailed>) {
+///     for FilmFailed { root, error, .. } in failed.read() {
+///         if error.cause == CoatingFault::Skinned {
+///             info!("the coating of {root} leaves out its skinned meshes");
+///         }
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, complain);
+/// app.update();
+/// ```
 #[derive(Message, Clone, Debug)]
 pub struct FilmFailed {
-    /// Entity that the film would have lived on.
+    /// Entity on which the film would have been.
     pub entity: Entity,
-    /// Entity whose `Coating` it is.
+    /// Entity with the film's `Coating`.
     pub root: Entity,
-    /// Why.
+    /// Reason for the refusal.
     pub error: CoatingError,
 }
 
-/// The first edge of a film tore. Not sent for films that appear cracked.
+/// Message that the first edge of a film has torn. It is not sent for films that are cracked already when they appear.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn play_crack(mut cracks: MessageReader<FirstCrack>) {
+///     for crack in cracks.read() {
+///         info!("a crack opens at {} at age {:.2}", crack.position, crack.age);
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, play_crack);
+/// app.update();
+/// ```
 #[derive(Message, Clone, Copy, Debug, PartialEq)]
 pub struct FirstCrack {
     /// Entity of the film.
     pub entity: Entity,
-    /// Age of the film.
+    /// Age of the film: 0 is fresh.
     pub age: f64,
-    /// Middle of the edge, in the world.
+    /// Middle of the edge, in world space.
     pub position: Vec3,
 }
 
-/// A piece of film fell off.
+/// Message that a piece of paint has fallen off.
+///
+/// The piece itself is gone from the film; the message has all that is needed to spawn debris in its place.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn spawn_debris(mut commands: Commands, mut pieces: MessageReader<PieceFallen>, mut meshes: ResMut<Assets<Mesh>>) {
+///     for piece in pieces.read() {
+///         let normal = piece.normal.try_normalize().unwrap_or(Vec3::Y);
+///         let flake = meshes.add(Plane3d::new(normal, Vec2::splat(piece.size / 2.0)));
+///         commands.spawn((Mesh3d(flake), Transform::from_translation(piece.position)));
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, spawn_debris);
+/// app.update();
+/// ```
 #[derive(Message, Clone, Copy, Debug, PartialEq)]
 pub struct PieceFallen {
     /// Entity of the film.
     pub entity: Entity,
-    /// Middle of the piece when it fell, in the world.
+    /// Centre of the piece when it fell, in world space.
     pub position: Vec3,
-    /// Its outward normal in the world: of unit length, or zero for a piece folded onto itself.
+    /// Outward normal of the piece in world space: of unit length, or zero for a piece that is folded onto itself.
     pub normal: Vec3,
-    /// Square root of its area, in the world's unit.
+    /// Square root of the piece's area, in world units.
     pub size: f32,
-    /// Triangles of the piece.
+    /// Number of triangles of the piece.
     pub faces: u32,
 }

@@ -1,6 +1,7 @@
-//! The types that users name: what they put on props, the clock and the weather they set, and what the plugin tells them.
+//! Defines the types that users of the plugin name: components, resources, messages, errors and system sets.
 //!
-//! Everything here is data with checks; the systems are in the rooms above.
+//! The types hold data and check it. The systems that work on them are in `attach`, `stepping`, `shelter` and
+//! `display`.
 
 pub(crate) mod assets;
 pub(crate) mod budget;

@@ -1,20 +1,31 @@
-//! How the paint shows its stains.
+//! Defines how stains are drawn on the paint.
 
 use bevy::reflect::prelude::*;
 
-/// How stains are shown on the front of the paint. Backs of flakes and bare metal, which are the plugin's own, always
-/// show theirs: with a material of their own where that is chosen and there is one, else with vertex colours.
+/// Way in which stains are drawn on the front of the paint.
+///
+/// The backs of flakes and the bare metal always show their stains: with a stained material where
+/// [`Material`](Self::Material) is chosen and available, and with vertex colours otherwise.
+///
+/// ```
+/// use bevy_coating::prelude::*;
+///
+/// // A prop whose material is not a `StandardMaterial`.
+/// let toon = Coating::default().with_stain_display(StainDisplay::VertexColor);
+/// assert_eq!(Coating::default().stain_display, StainDisplay::Material);
+/// # assert_eq!(toon.stain_display, StainDisplay::VertexColor);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Default, Debug, Clone, PartialEq, Hash)]
 pub enum StainDisplay {
-    /// While it is coated, the prop's `StandardMaterial` is replaced by an extension of it that draws stains in detail
-    /// (`StainedMaterial`); everything else of it stays as it is. Without feature `render`, or in an app without
-    /// Bevy's `PbrPlugin`, the same as [`None`](Self::None).
+    /// Extended material: while the prop is coated, its `StandardMaterial` is replaced by `StainedMaterial`, which
+    /// draws stains in detail over it. Without feature `render`, or in an app without Bevy's `PbrPlugin`, it is the
+    /// same as [`None`](Self::None).
     #[default]
     Material,
-    /// The prop's material is not touched: stains go into the colours of the film's vertices, over those that the prop
-    /// has. Less detail, but works with any material that heeds vertex colours.
+    /// Vertex colours: stains are mixed into the colours of the film's vertices, and the prop's material stays. They
+    /// are less detailed, but work with any material that uses vertex colours.
     VertexColor,
-    /// Stains are not shown on the paint.
+    /// No stains on the paint. The prop's material stays.
     None,
 }

@@ -1,25 +1,44 @@
-//! Where all films stand.
+//! Counts the films and their ages.
 
 use bevy::{
     ecs::{reflect::ReflectResource, resource::Resource},
     reflect::prelude::*,
 };
 
-/// Where all films stand, counted once a frame.
+/// Number of films in each state, and their ages, counted once a frame.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// /// Returns whether all props have their films, so that the loading screen can go.
+/// fn all_painted(status: Res<CoatingStatus>) -> bool {
+///     status.waiting == 0
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, (|| info!("ready")).run_if(all_painted));
+/// app.update();
+/// # assert_eq!(*app.world().resource::<CoatingStatus>(), CoatingStatus::default());
+/// ```
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingStatus {
-    /// Mesh entities that wait for their film, or for assets to be loaded.
+    /// Number of mesh entities whose film is being built, or that wait for assets to load.
     pub waiting: usize,
-    /// Mesh entities that could not be coated.
+    /// Number of mesh entities that could not be coated.
     pub refused: usize,
-    /// Films that are ready.
+    /// Number of films that are ready.
     pub films: usize,
-    /// Films that took a step in the last frame.
+    /// Number of films that took a step in the last frame.
     pub stepped: usize,
-    /// Films that had no turn in the last frame, as there was no time for all.
+    /// Number of films that were postponed in the last frame, as the [budget](super::budget::CoatingBudget) had no time
+    /// for their steps.
     pub postponed: usize,
-    /// Films that owe steps, but wait until it is known what [shelters](super::shelter::Shelter) them.
+    /// Number of films that have steps to take, but wait for rays to be cast against their
+    /// [shelters](super::shelter::Shelter).
     pub casting: usize,
     /// Age of the youngest film; 0 without films.
     pub youngest: f64,

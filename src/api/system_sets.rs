@@ -1,44 +1,67 @@
-//! The schedule of a step and the sets of the plugin's systems.
+//! Defines the schedule of a step and the plugin's system sets.
 
 use bevy::ecs::schedule::{ScheduleLabel, SystemSet};
 
-/// One step. Run as often as the clock and the budget ask for; in each run only the films that are due take a
-/// step ([`FilmPace::is_due`](super::film_pace::FilmPace::is_due)), so films of different pace share it.
+/// Schedule of one step, with the stages of [`CoatingSystems`]. It runs several times in a frame, or not at all, as the
+/// clock and the budget demand.
+///
+/// In each run only the films that are [due](super::film_pace::FilmPace::is_due) take a step, so films of different
+/// speeds share the schedule. Systems of a game can be added to it once the plugin has been added, which creates it.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CoatingStep;
 
-/// The stages of a step, in their order. Each runs over all due films, in parallel.
+/// Stages of a step, in the order in which they run in [`CoatingStep`]. Each works on all due films in parallel.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::{FilmPace, film::FilmChanges, prelude::*};
+///
+/// /// Runs between tearing and stripping of the same step.
+/// fn count_cracks(films: Query<(&FilmPace, &FilmChanges)>) {
+///     let torn: usize = films.iter().filter(|(pace, _)| pace.is_due()).map(|(_, changes)| changes.torn.len()).sum();
+///     debug!("{torn} edges tore");
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(CoatingStep, count_cracks.after(CoatingSystems::Tear).before(CoatingSystems::Strip));
+/// app.update();
+/// ```
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CoatingSystems {
-    /// The step is counted; adhesion falls, contraction grows, torn faces' edges lose binding (VC 5.1, 5.2).
+    /// Stage that counts the step and ages the forces: adhesion falls, contraction grows, and edges of torn faces lose
+    /// binding (VC 5.1, 5.2).
     Forces,
-    /// Vertices separate where the bending force exceeds their adhesion (VC 5.1).
+    /// Stage that separates vertices whose bending force exceeds their adhesion (VC 5.1).
     Separate,
-    /// Edges tear, and cracks run (VC 5.2).
+    /// Stage that tears edges, from which cracks run on (VC 5.2).
     Tear,
-    /// Faces cut out all round and small loose pieces fall (VC 5.3).
+    /// Stage that removes faces that are cut out all round, and small loose pieces (VC 5.3).
     Strip,
-    /// Constraints follow fracture, then the separated film bends (PBD-2, VC 4).
+    /// Stage that updates the constraints after fracture, then bends the separated film (PBD-2, VC 4).
     Bend,
-    /// Rust comes out of cracks, runs off and stains; bare metal rusts (VC 6.1).
+    /// Stage that lets rust come out of cracks, run off and stain, and bare metal rust (VC 6.1).
     Rust,
-    /// Dust and soot settle (VC 6.2).
+    /// Stage that lets dust and soot settle (VC 6.2).
     Dust,
-    /// Rain wets, air and sun dry, and water washes.
+    /// Stage that wets the film with rain, dries it by air and sun, and lets water wash it.
     Moisture,
-    /// What happened becomes messages and is noted for display.
+    /// Stage that sends messages about the step and notes for display what changed.
     Report,
 }
 
-/// In the plugin's schedule: the steps of the frame are taken.
+/// Set of the systems that take the steps of a frame. It is in the schedule that is given to
+/// `CoatingWeatheringPlugin::new`.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CoatingAdvance;
 
-/// In `PostUpdate`: finished films are put on their props, meshes to be coated are found, builds are begun.
+/// Set of the systems in `PostUpdate` that put finished films on their props, find meshes to coat and begin to build
+/// films.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CoatingAttach;
 
-/// In `PostUpdate`: the meshes of films that changed are brought up to date, in time for bounds, visibility and
-/// extraction.
+/// Set of the systems in `PostUpdate` that bring the meshes of changed films up to date, before Bevy computes bounds
+/// and visibility and extracts the meshes for rendering.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CoatingDisplay;

@@ -1,4 +1,4 @@
-//! The weather that all films share.
+//! Defines [`CoatingWeather`], the weather of all films.
 
 use bevy::{
     ecs::{reflect::ReflectResource, resource::Resource},
@@ -9,34 +9,57 @@ use bevy::{
 
 use super::clock::CoatingGravity;
 use crate::stain::Environment;
-/// Most that [wind](CoatingWeather::wind) may pull, in gravities.
+
+/// Greatest pull of the [wind](CoatingWeather::wind), in gravities.
 const MAX_WIND: f32 = 100.0;
-/// Most that [gusts](CoatingWeather::gusts) may spread, in metres after one metre.
+/// Greatest spread by [gusts](CoatingWeather::gusts), in metres after one metre.
 const MAX_GUSTS: f32 = 100.0;
 
 /// Wind, rain and sun in the world. By default the air is still, and there is neither rain nor sun.
 ///
-/// Each film feels them in its own space, so that they turn when its prop is turned. Values that are out of range
-/// are brought into it, and those that are NaN or infinite count as zero; a warning says so.
+/// All directions are in world space and are transformed into each film's space, so weather acts correctly on a prop
+/// that turns. Values that are out of range are clamped, and values that are NaN or infinite count as zero; a warning
+/// says so.
 ///
-/// What stands around a prop shelters it from rain and sun: see [`RainShelter`](super::shelter::RainShelter) and
+/// Meshes around a prop can shelter it from rain and sun: see [`RainShelter`](super::shelter::RainShelter) and
 /// [`Shelter`](super::shelter::Shelter).
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn begin_storm(mut weather: ResMut<CoatingWeather>) {
+///     *weather = CoatingWeather {
+///         wind: Vec3::X * 0.8,
+///         gusts: 0.1,
+///         rain: Vec3::new(0.6, -0.8, 0.0),
+///         ..CoatingWeather::default()
+///     };
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Startup, begin_storm);
+/// app.update();
+/// ```
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingWeather {
-    /// Direction in which the wind blows, as long as it pulls at run-off: 1 pulls as hard as gravity. Length 0 to
-    /// 100, default zero: still air.
+    /// Direction in which the wind blows. Its length is the strength with which wind pulls at run-off: 1 pulls as hard
+    /// as gravity. Length 0 to 100, default zero (still air).
     pub wind: Vec3,
-    /// How far gusts spread run-off sideways: the standard deviation in metres after one metre. 0 to 100, default 0.
+    /// Spread of run-off to the sides by gusts: the standard deviation, in metres, after one metre. 0 to 100, default
+    /// 0.
     pub gusts: f32,
-    /// Direction in which rain falls, as long as there is rain. Length 0 to 1, default zero: dry weather.
+    /// Direction in which rain falls. Its length is the strength of the rain: 0 to 1, default zero (dry weather).
     pub rain: Vec3,
-    /// Direction in which sunlight falls, as long as it is strong. Length 0 to 1, default zero: shade.
+    /// Direction in which sunlight falls. Its length is the strength of the sun: 0 to 1, default zero (shade).
     pub sun: Vec3,
 }
 
 impl CoatingWeather {
-    /// The weather with every value in its range, and the names of those that were not.
+    /// Returns the weather with every value clamped to its range, and the names of the values that were out of range.
     pub(crate) fn checked(&self) -> (Self, Vec<&'static str>) {
         let mut faults = Vec::new();
         let mut vector = |name, value, most| {
@@ -56,18 +79,18 @@ impl CoatingWeather {
         (Self { wind, gusts, rain, sun }, faults)
     }
 
-    /// Whether there is rain or sun.
+    /// Returns whether there is rain or sun.
     pub(crate) fn reaches_anything(&self) -> bool {
         let (weather, _) = self.checked();
         weather.rain != Vec3::ZERO || weather.sun != Vec3::ZERO
     }
 
-    /// What works on a film that is turned by `transform`: gravity and the weather in its space, which has the
-    /// world scale applied, so that only the rotation counts.
+    /// Returns gravity and weather in the space of a film at `transform`. That space has the world scale applied, so
+    /// only the rotation counts.
     pub(crate) fn environment(&self, gravity: CoatingGravity, transform: &GlobalTransform) -> Environment {
         let (weather, _) = self.checked();
         let turn = transform.rotation().inverse();
-        // The rotation of a prop that is scaled to nothing is no number.
+        // The rotation of a prop that is scaled to zero is NaN.
         let turned = |v: Vec3| Some(turn * v).filter(|v| v.is_finite()).unwrap_or(Vec3::ZERO);
         Environment {
             gravity: (turn * gravity.0).normalize_or_zero(),
@@ -79,12 +102,12 @@ impl CoatingWeather {
     }
 }
 
-/// `v`, shortened to `most`; zero if it is not finite.
+/// Returns `v` shortened to the length `most`, or zero if it is not finite.
 fn within(v: Vec3, most: f32) -> Vec3 {
     if !v.is_finite() {
         return Vec3::ZERO;
     }
-    // Directions are often normalised, and then longer than 1 by a rounding.
+    // A normalised vector may be longer than 1 by a rounding error.
     if v.length() <= most * (1.0 + 1e-5) { v } else { v.normalize_or_zero() * most }
 }
 

@@ -1,29 +1,32 @@
-//! Backs of the flakes: separated faces, reversed, one thickness behind their fronts.
+//! Builds the backs of the flakes: the separated faces, wound the other way, one thickness of paint behind their
+//! fronts.
 
 use bevy_math::Vec3;
 
 use super::{
-    MeshPart,
     face_slots::{FaceSlots, has_separated},
+    part::MeshPart,
     wedges::Wedges,
 };
 use crate::{film::Topology, fracture::FilmForces};
 
-/// No back yet, in the lookup.
+/// Entry of the lookup for a corner that has no back vertex yet.
 const NONE: u32 = u32::MAX;
 
-/// The backs of all slots.
+/// Backs of all slots in one part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Backs {
+    /// Vertices and triangles of the backs.
     pub part: MeshPart,
-    /// Slot and front vertex behind which each vertex lies.
+    /// Slot and front vertex of each back vertex: the back lies behind it.
     fronts: Vec<(usize, u32)>,
-    /// Vertex behind each corner that stands for a front vertex.
+    /// Back vertex of each corner that stands for a front vertex, or [`NONE`].
     of_corner: Vec<u32>,
 }
 
 impl Backs {
-    /// Finds the separated faces anew.
+    /// Collects the separated faces and builds their triangles again. Positions and normals come from
+    /// [`follow`](Self::follow).
     pub fn renew(&mut self, topology: &Topology, forces: &FilmForces, face_slots: &FaceSlots, wedges: &Wedges) {
         let Self { part, fronts, of_corner } = self;
         part.clear();
@@ -47,7 +50,7 @@ impl Backs {
         part.normals.resize(fronts.len(), [0.0; 3]);
     }
 
-    /// Gives the backs the stains and places of their fronts.
+    /// Copies the stains, rest positions and rest normals of the fronts to the backs.
     pub fn stain(&mut self, fronts: &[MeshPart]) {
         let Self { part, fronts: behind, .. } = self;
         part.stains.clear();
@@ -58,7 +61,7 @@ impl Backs {
         part.rest_normals.extend(behind.iter().map(|&(slot, vertex)| fronts[slot].rest_normals[vertex as usize]));
     }
 
-    /// Moves the backs to where the fronts are now.
+    /// Moves each back vertex to `thickness` metres behind its front vertex.
     pub fn follow(&mut self, fronts: &[MeshPart], thickness: f32) {
         for (i, &(slot, vertex)) in self.fronts.iter().enumerate() {
             let front = &fronts[slot];

@@ -1,4 +1,4 @@
-//! Attributes of the film's corners, taken from the prop's surface.
+//! Samples the prop's surface attributes (normals, texture coordinates, colours) at the film's corners.
 
 use std::ops::{Add, Mul};
 
@@ -10,27 +10,46 @@ use crate::{
     surface::{Surface, SurfaceSite},
 };
 
-/// Cosine of 30 degrees: where the prop has no normals, film that turns by less is shaded smooth.
+/// Cosine of 30 degrees. Where the prop has no normals, a corner gets the smooth vertex normal if that differs by less
+/// than this angle from the face's normal, and the face's normal otherwise.
 const SMOOTH_COSINE: f32 = 0.866;
 
-/// Attributes of each corner of the film at rest, three a face; empty where the prop has none, but for normals, which
-/// are made up then.
+/// Attributes of each corner of the film at rest, in the order of the film's half-edges: three entries a face.
+///
+/// An attribute that the prop does not have is an empty vector. Normals are the exception: where the prop has none they
+/// are computed from the film's shape, so there are always three a face.
+///
+/// ```
+/// use bevy_coating::{
+///     appearance::CornerAttributes, remesh::sample, settings::CoatingSettings, sim::FilmState,
+/// };
+///
+/// let piece = sample::plate(200, 1)?;
+/// let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 1000).ok_or("an empty film")?;
+/// let attributes = CornerAttributes::sample(&piece.film, &piece.surface, &film.mesh);
+/// assert_eq!(attributes.normals.len(), 3 * 200);
+/// assert_eq!(attributes.uvs.len(), 3 * 200, "the plate has texture coordinates");
+/// assert!(attributes.colors.is_empty(), "but no colours");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CornerAttributes {
-    /// Unit shading normals.
+    /// Shading normals, of unit length.
     pub normals: Vec<Vec3>,
-    /// First texture coordinates.
+    /// First texture coordinates; empty if the prop has none.
     pub uvs: Vec<Vec2>,
-    /// Second texture coordinates.
+    /// Second texture coordinates; empty if the prop has none.
     pub uvs_1: Vec<Vec2>,
-    /// Unit tangents, handedness in `w`.
+    /// Tangents of unit length, with the handedness (1 or -1) in `w`; empty if the prop has none.
     pub tangents: Vec<Vec4>,
-    /// Linear colours.
+    /// Linear vertex colours with alpha; empty if the prop has none.
     pub colors: Vec<Vec4>,
 }
 
 impl CornerAttributes {
-    /// Samples `surface` where the corners of `built` lie on it. `mesh` is the film at rest or later.
+    /// Samples `surface` at the places where the corners of `built` lie on it.
+    ///
+    /// `mesh` is the film that was made of `built`, in any state: only its rest pose is used.
     pub fn sample(built: &BuiltFilm, surface: &Surface, mesh: &FilmMesh) -> Self {
         let sites = &built.sites;
         let mut attributes = Self {
@@ -48,7 +67,7 @@ impl CornerAttributes {
         attributes
     }
 
-    /// Makes normals unit vectors, and fills in those that the prop lacks.
+    /// Makes normals unit vectors, and computes the normals that the prop lacks.
     fn finish_normals(&mut self, mesh: &FilmMesh) {
         for h in mesh.topology.all_half_edges() {
             let normal = &mut self.normals[h.index()];
@@ -65,6 +84,7 @@ impl CornerAttributes {
     }
 }
 
+/// Interpolates the corner values `values` at `sites`. Values that are missing count as zero.
 fn sample<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output = T>>(
     values: &[T],
     sites: &[SurfaceSite],

@@ -1,4 +1,4 @@
-//! Which slot each face belongs to and which way round it is shown.
+//! Tells which slot each face belongs to, and in which winding its triangle is drawn.
 
 use crate::{
     film::{FaceId, HalfEdgeId, Topology},
@@ -6,7 +6,7 @@ use crate::{
     remesh::BuiltFilm,
 };
 
-/// Slot and winding of each face.
+/// Slot (primitive of the prop) and winding of each face.
 #[derive(Clone, Debug)]
 pub(super) struct FaceSlots {
     slots: Vec<u32>,
@@ -14,6 +14,8 @@ pub(super) struct FaceSlots {
 }
 
 impl FaceSlots {
+    /// Copies the slots and windings of `built` for `faces` faces. Faces that `built` does not list are in slot 0 and
+    /// not flipped.
     pub fn new(built: &BuiltFilm, faces: usize) -> Self {
         let (mut slots, mut flipped) = (built.slots.clone(), built.flipped.clone());
         slots.resize(faces, 0);
@@ -21,26 +23,29 @@ impl FaceSlots {
         Self { slots, flipped }
     }
 
+    /// Returns the number of slots: the highest slot of a face and one.
     pub fn slot_count(&self) -> usize {
         self.slots.iter().max().map_or(0, |&slot| slot as usize + 1)
     }
 
+    /// Returns the slot of `f`.
     pub fn slot(&self, f: FaceId) -> usize {
         self.slots[f.index()] as usize
     }
 
+    /// Returns whether `f` runs against the winding of the prop's own triangles.
     pub fn is_flipped(&self, f: FaceId) -> bool {
         self.flipped[f.index()]
     }
 
-    /// The corners of a face in the order in which it is shown: that of the prop's own triangle.
+    /// Returns the corners of `f` in the winding in which it is drawn, which is the winding of the prop's own triangle.
     pub fn corners(&self, f: FaceId) -> [HalfEdgeId; 3] {
         let [a, b, c] = f.half_edges();
         if self.is_flipped(f) { [a, c, b] } else { [a, b, c] }
     }
 }
 
-/// Whether any vertex of `f` has separated.
+/// Returns whether any vertex of `f` has separated.
 pub(super) fn has_separated(topology: &Topology, forces: &FilmForces, f: FaceId) -> bool {
     topology.corners(f).iter().any(|&v| !forces.is_attached(v))
 }

@@ -1,9 +1,9 @@
-//! Bare metal: the film at rest where it has separated or is gone, pushed under itself.
+//! Builds the bare metal: the faces of the film at rest where it has separated or is gone, moved a little inwards.
 
 use super::{
-    CornerAttributes, MeshPart,
+    corners::CornerAttributes,
     face_slots::{FaceSlots, has_separated},
-    part::shown_stains,
+    part::{MeshPart, vertex_stains},
     wedges::Wedges,
 };
 use crate::{
@@ -12,21 +12,22 @@ use crate::{
     stain::StainFields,
 };
 
-/// No vertex yet, in the lookup.
+/// Entry of the lookup for a wedge that has no vertex yet.
 const NONE: u32 = u32::MAX;
 
-/// The metal of all slots.
+/// Bare metal of all slots in one part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Metal {
+    /// Vertices and triangles of the metal.
     pub part: MeshPart,
-    /// Vertex of each wedge at rest.
+    /// Metal vertex of each wedge at rest, or [`NONE`].
     of_wedge: Vec<u32>,
-    /// Original film vertex that each vertex lies under.
+    /// Original film vertex above each metal vertex.
     originals: Vec<VertexId>,
 }
 
 impl Metal {
-    /// Finds the exposed faces anew. `depth` is how far the metal lies under the film.
+    /// Collects the exposed faces and builds their vertices again, `depth` metres under the film at rest.
     pub fn renew(
         &mut self,
         mesh: &FilmMesh,
@@ -66,7 +67,7 @@ impl Metal {
         }
     }
 
-    /// Gives the metal its stains.
+    /// Writes the stains of the metal under each vertex.
     pub fn stain(&mut self, stains: &StainFields) {
         let layer = &stains.metal;
         self.part.stains.clear();
@@ -74,7 +75,7 @@ impl Metal {
             self.originals
                 .iter()
                 .map(|v| v.index())
-                .map(|v| shown_stains(layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v])),
+                .map(|v| vertex_stains(layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v])),
         );
     }
 }

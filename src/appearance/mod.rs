@@ -1,15 +1,32 @@
-//! What is shown of a film, as plain arrays: the film wearing the prop's surface, the backs of its flakes and the
-//! bare metal beneath.
+//! Turns a film into the meshes that are drawn, as plain arrays: the front of the paint, the backs of its flakes, and
+//! the bare metal under it.
 //!
-//! | part | holds | moves |
+//! | part | triangles | moves |
 //! |---|---|---|
-//! | [`FilmAppearance::front`] | all live faces, with the prop's own corner attributes | with the film |
-//! | [`FilmAppearance::backs`] | live faces that have separated, seen from behind | with the film |
+//! | [`FilmAppearance::front`] | all faces that are left, with the prop's own attributes at their corners | with the
+//! film |
+//! | [`FilmAppearance::backs`] | faces that are left and have separated, seen from behind | with the film |
 //! | [`FilmAppearance::metal`] | faces that have separated or are gone, at rest, just under the film | never |
 //!
 //! A face has separated when any of its vertices has. Faces that are still attached have neither back nor metal, so
-//! a fresh film looks exactly like the prop that it was made of. The same arrays serve the plugin's meshes and baked
-//! models.
+//! a fresh film looks exactly like the prop that it was made of. The plugin's meshes and baked models are made of the
+//! same arrays. Colours, roughness and relief of stained surfaces are computed in [`shading`].
+//!
+//! ```
+//! use bevy_coating::{
+//!     appearance::FilmAppearance, remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment,
+//! };
+//!
+//! let (piece, settings) = (sample::plate(200, 1)?, CoatingSettings::default());
+//! let mut film = FilmState::new(&piece.film, &settings, 0, 100).ok_or("an empty film")?;
+//! let fresh = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+//! assert!(fresh.backs().is_empty() && fresh.metal().is_empty(), "fresh paint hides the metal");
+//!
+//! film.age_to(1.0, &settings, &Environment::default());
+//! let aged = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+//! assert!(!aged.metal().is_empty(), "aged paint has separated");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod backs;
 mod changes;
@@ -40,16 +57,18 @@ use face_slots::FaceSlots;
 use metal::Metal;
 use moves::Moves;
 use normals::CornerFrames;
-use part::shown_stains;
+use part::vertex_stains;
 use wedges::Wedges;
 
-/// Thickness of the paint, in mean edges: how far a flake's back lies behind its front.
+/// Distance between a flake's front and its back, the thickness of the paint, in mean edge lengths of the film.
 pub const FILM_THICKNESS: f32 = 0.01;
-/// How far the metal lies under the film at rest, in mean edges: more than the thickness, so that it never shows
-/// through the back of a flake that has only just let go.
+/// Depth of the bare metal under the film at rest, in mean edge lengths of the film. It is more than
+/// [`FILM_THICKNESS`], so that the metal does not show through the back of a flake that has only just separated.
 pub const METAL_DEPTH: f32 = 0.02;
 
-/// The shown parts of one film, and what is needed to bring them up to date.
+/// Front, backs and bare metal of one film as [`MeshPart`]s, and the lookups that bring them up to date.
+///
+/// The module's page has an [example](self).
 #[derive(Clone, Debug)]
 pub struct FilmAppearance {
     attributes: CornerAttributes,
@@ -65,8 +84,8 @@ pub struct FilmAppearance {
 }
 
 impl FilmAppearance {
-    /// The shown parts of the film of `built`, which was made of `surface`, in the state of `mesh`, `forces` and
-    /// `stains`.
+    /// Builds the parts of a film in the state of `mesh`, `forces` and `stains`. `built` is the film at rest that this
+    /// state began with, and `surface` the prop's surface that `built` was made of.
     pub fn new(
         built: &BuiltFilm,
         surface: &Surface,
@@ -91,22 +110,22 @@ impl FilmAppearance {
         shown
     }
 
-    /// Number of slots: primitives, each with a material of its own.
+    /// Returns the number of slots. Each primitive of the prop is a slot and has a material of its own.
     pub fn slot_count(&self) -> usize {
         self.fronts.len()
     }
 
-    /// The film of one slot; `None` for a slot that no face has.
+    /// Returns the front of the paint in one slot; `None` if `slot` is not below [`slot_count`](Self::slot_count).
     pub fn front(&self, slot: usize) -> Option<&MeshPart> {
         self.fronts.get(slot)
     }
 
-    /// The backs of the flakes of all slots: positions and normals only.
+    /// Returns the backs of the flakes of all slots in one part, without texture coordinates, tangents and colours.
     pub fn backs(&self) -> &MeshPart {
         &self.backs.part
     }
 
-    /// The bare metal of all slots, with first texture coordinates where the prop has some.
+    /// Returns the bare metal of all slots in one part, with first texture coordinates where the prop has some.
     pub fn metal(&self) -> &MeshPart {
         &self.metal.part
     }
@@ -152,6 +171,7 @@ impl FilmAppearance {
         }
     }
 
+    /// Resizes the front parts and copies the attributes that do not change as the film moves.
     fn write_front_attributes(&mut self, mesh: &FilmMesh) {
         for (slot, part) in self.fronts.iter_mut().enumerate() {
             let corners = self.wedges.corners(slot);
@@ -169,6 +189,7 @@ impl FilmAppearance {
         }
     }
 
+    /// Writes the stains of every front vertex.
     fn write_front_stains(&mut self, topology: &Topology, stains: &StainFields) {
         for (slot, part) in self.fronts.iter_mut().enumerate() {
             part.stains.clear();
@@ -176,11 +197,12 @@ impl FilmAppearance {
                 let v = topology.origin(h);
                 let (film, metal) = (v.index(), topology.original(v).index());
                 let layer = &stains.film;
-                shown_stains(layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal])
+                vertex_stains(layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal])
             }));
         }
     }
 
+    /// Writes the triangles of the front parts.
     fn write_front_indices(&mut self, topology: &Topology) {
         for part in &mut self.fronts {
             part.indices.clear();
@@ -193,6 +215,7 @@ impl FilmAppearance {
         }
     }
 
+    /// Writes positions, normals and tangents of the front vertices whose faces moved.
     fn write_front_frames(&mut self, mesh: &FilmMesh) {
         let Self { fronts, wedges, frames, attributes, moves, .. } = self;
         for (slot, part) in fronts.iter_mut().enumerate() {
@@ -212,7 +235,7 @@ impl FilmAppearance {
     }
 }
 
-/// Rewrites `to` with the attribute at each of `corners`; empties it if the prop does not have the attribute.
+/// Fills `to` with the attribute at each of `corners`; leaves it empty if the prop does not have the attribute.
 fn copy<T: Copy + Into<[f32; N]>, const N: usize>(to: &mut Vec<[f32; N]>, from: &[T], corners: &[HalfEdgeId]) {
     to.clear();
     if !from.is_empty() {

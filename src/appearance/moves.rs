@@ -1,4 +1,4 @@
-//! Which vertices have moved since the film was shown last.
+//! Finds the vertices that have moved since the appearance was last brought up to date.
 
 use bevy_math::Vec3;
 
@@ -7,7 +7,7 @@ use crate::film::{FaceId, FilmMesh, VertexId};
 /// Vertices that moved, and the faces and vertices whose directions depend on them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Moves {
-    /// Positions shown last.
+    /// Positions at the last update.
     seen: Vec<Vec3>,
     /// Vertices that moved.
     moved: Vec<bool>,
@@ -18,7 +18,8 @@ pub(super) struct Moves {
 }
 
 impl Moves {
-    /// Finds what moved; everything if `all` is to be looked at anew. Whether there is anything.
+    /// Compares the film with the last update and returns whether anything moved. With `all` everything counts as
+    /// moved.
     pub fn follow(&mut self, mesh: &FilmMesh, all: bool) -> bool {
         let (topology, positions) = (&mesh.topology, &mesh.geometry.positions);
         let Self { seen, moved, faces, vertices } = self;
@@ -47,13 +48,13 @@ impl Moves {
         true
     }
 
-    /// Whether a corner of `f` moved.
+    /// Returns whether a corner of `f` moved.
     #[inline]
     pub fn has_moved(&self, f: FaceId) -> bool {
         self.faces[f.index()]
     }
 
-    /// Whether a face at `v` has a corner that moved.
+    /// Returns whether `v` belongs to a face with a corner that moved.
     #[inline]
     pub fn is_turned(&self, v: VertexId) -> bool {
         self.vertices[v.index()]

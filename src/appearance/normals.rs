@@ -1,39 +1,39 @@
-//! Normals and tangents of a film that bends: the prop's own, turned with the faces.
+//! Turns the prop's own normals and tangents with the faces of a film that bends.
 //!
-//! Each corner's normal at rest is turned by the rotation that takes its face's normal from rest to now, and averaged
-//! over the faces around its vertex that share the normal at rest. So a film at rest has exactly the prop's normals,
-//! hard edges stay hard, and cracks part the shading as they part the vertices.
+//! Each corner's normal at rest is rotated as its face's normal has rotated since rest, and averaged over the faces
+//! around its vertex that share the normal at rest. So a film at rest has exactly the prop's normals, hard edges stay
+//! hard, and normals differ across a crack, as its two sides have vertices of their own.
 
 use bevy_math::{Vec3, Vec4};
 
-use super::{CornerAttributes, moves::Moves};
+use super::{corners::CornerAttributes, moves::Moves};
 use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
-/// Normals at rest that differ by less are one smooth surface.
+/// Largest difference in each component between normals at rest that belong to one smooth surface.
 const SMOOTH: f32 = 1e-3;
-/// Faces that turned by less than this (1 - cosine) have not moved: their normals are exactly the prop's.
+/// Rotation (1 - cosine) below which a face counts as not turned: its normals are then exactly the prop's.
 const STILL: f32 = 1e-7;
 
-/// Rotation of each face since rest.
+/// Normals and tangents of the corners, turned with their faces since rest.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CornerFrames {
     /// Unit normal of each face at rest; zero for a face without area.
     rest_normals: Vec<Vec3>,
-    /// Area of each face at rest: its weight.
+    /// Twice the area of each face at rest: its weight in means.
     weights: Vec<f32>,
     /// Whether each face has turned since rest.
     turned: Vec<bool>,
     /// Normal of each corner, turned with its face and weighted.
     normals: Vec<Vec3>,
-    /// Tangent of each corner, likewise; empty if the prop has none.
+    /// Tangent of each corner, turned with its face and weighted; empty if the prop has none.
     tangents: Vec<Vec3>,
-    /// Whether the normals at rest of all corners around an original vertex are one smooth surface.
+    /// Whether all corners around an original vertex have the same normal at rest.
     smooth: Vec<bool>,
-    /// At vertices that are smooth: sums of normals and tangents around them, and whether none of their faces has turned.
+    /// Sum over the faces around each vertex; filled only for smooth vertices with a face that moved.
     sums: Vec<Sum>,
 }
 
-/// What the faces around a vertex come to.
+/// Sum over the faces around a vertex.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     normal: Vec3,
@@ -41,29 +41,32 @@ struct Sum {
     turned: bool,
 }
 
-/// `v` with unit length; zero where it has none. The vector type's own calls a library for the square root where it is built
-/// for the same bits on every platform; a square root is exact everywhere.
+/// Returns `v` scaled to unit length, or zero if its length is zero.
+///
+/// `Vec3::normalize` calls a library function for the square root where it is built for the same bits on every
+/// platform. A square root is exact everywhere, so the processor's own is used here.
 #[inline]
 fn unit(v: Vec3) -> Vec3 {
     let length = v.length_squared().sqrt();
     if length > 0.0 { v * (1.0 / length) } else { Vec3::ZERO }
 }
 
-/// The smallest rotation between two unit vectors, in the form `v + c x v + c x (c x v) / (1 + cosine)`.
+/// Smallest rotation between two unit vectors with cross product `c`: `v + c x v + c x (c x v) / (1 + cosine)`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Turn {
     cross: Vec3,
-    /// `1 / (1 + cosine)`; 0 if the face has not turned.
+    /// `1 / (1 + cosine)`; 0 stands for no rotation.
     scale: f32,
 }
 
 impl Turn {
+    /// Returns the rotation from `rest` to `now`, or none where it is below [`STILL`] or a vector is zero.
     fn between(rest: Vec3, now: Vec3) -> Self {
         let cosine = rest.dot(now);
         if cosine > 1.0 - STILL || rest == Vec3::ZERO || now == Vec3::ZERO {
             return Self::default();
         }
-        // A face turned right over has no smallest rotation; any half turn in its plane will do.
+        // A face that was turned over has no unique smallest rotation; a half turn about any axis in its plane will do.
         if cosine < -0.9999 {
             let axis = rest.any_orthonormal_vector();
             return Self { cross: axis * 2e-2, scale: 5e3 };
@@ -82,7 +85,7 @@ impl Turn {
 }
 
 impl CornerFrames {
-    /// `mesh` may have torn and moved since it was at rest.
+    /// Measures the faces of `mesh` at rest; it may have torn and moved since.
     pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes) -> Self {
         let cross = |f| {
             let rest = |v| mesh.geometry.rest_positions[mesh.topology.original(v).index()];
@@ -100,7 +103,7 @@ impl CornerFrames {
         }
     }
 
-    /// Brings what has moved up to date.
+    /// Turns the normals and tangents of the corners of faces that moved.
     pub fn turn_faces(&mut self, mesh: &FilmMesh, attributes: &CornerAttributes, moves: &Moves) {
         for f in mesh.topology.live_faces().filter(|&f| moves.has_moved(f)) {
             let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.geometry.positions[v.index()]);
@@ -116,8 +119,8 @@ impl CornerFrames {
         }
     }
 
-    /// Adds up what the faces around vertices with a turned face come to, in the order of faces: much quicker than going round
-    /// each vertex.
+    /// Sums normals and tangents over the faces around each smooth vertex. Going through the faces in their order is
+    /// much faster than going around each vertex.
     pub fn add_up(&mut self, topology: &Topology, moves: &Moves) {
         let Self { turned, normals, tangents, smooth, sums, .. } = self;
         sums.clear();
@@ -137,13 +140,13 @@ impl CornerFrames {
         }
     }
 
-    /// Normal of the corner at the start of `h`.
+    /// Returns the unit normal of the corner at the start of `h`.
     pub fn normal(&self, topology: &Topology, attributes: &CornerAttributes, h: HalfEdgeId) -> Vec3 {
         let mean = self.mean(topology, attributes, h, &self.normals, |sum| sum.normal);
         mean.unwrap_or(attributes.normals[h.index()])
     }
 
-    /// Tangent of the corner at the start of `h`, perpendicular to `normal`.
+    /// Returns the tangent of the corner at the start of `h`: perpendicular to `normal`, handedness in `w`.
     pub fn tangent(&self, topology: &Topology, attributes: &CornerAttributes, h: HalfEdgeId, normal: Vec3) -> Vec4 {
         let rest = attributes.tangents[h.index()];
         self.mean(topology, attributes, h, &self.tangents, |sum| sum.tangent).map_or(rest, |turned| {
@@ -152,8 +155,8 @@ impl CornerFrames {
         })
     }
 
-    /// Mean of the turned values of the faces around the corner's vertex that are smooth with it; `None` where none
-    /// of them has turned.
+    /// Returns the unit mean of the turned values of the faces around the corner's vertex that share its normal at
+    /// rest; `None` where none of these faces has turned.
     #[inline]
     fn mean(
         &self,
@@ -177,7 +180,7 @@ impl CornerFrames {
     }
 }
 
-/// For each original vertex whether all corners around it have one normal at rest.
+/// Returns for each original vertex whether all corners around it have the same normal at rest.
 fn smooth_vertices(mesh: &FilmMesh, attributes: &CornerAttributes) -> Vec<bool> {
     let topology = &mesh.topology;
     let mut first = vec![HalfEdgeId::NONE; topology.original_vertex_count()];
@@ -186,7 +189,7 @@ fn smooth_vertices(mesh: &FilmMesh, attributes: &CornerAttributes) -> Vec<bool> 
     for h in topology.all_half_edges() {
         let v = original(h);
         if let Some(g) = first[v].get() {
-            // Half of what is smooth, so that any two of them are.
+            // Half the limit, so that any two of the corners are within it.
             even[v] &= attributes.normals[h.index()].abs_diff_eq(attributes.normals[g.index()], 0.5 * SMOOTH);
         } else {
             first[v] = h;

@@ -1,54 +1,75 @@
-//! Vertex arrays of a shown part.
+//! Defines [`MeshPart`], the vertex arrays of one part of a film's appearance.
 
 use super::shading::StainSample;
 
-/// Vertices and triangles of one shown part, in the film's space. Attributes that the prop does not have are empty,
-/// others hold one entry a vertex.
+/// Vertices and triangles of one part of a film's appearance (front, backs or metal), in the film's space.
+///
+/// Each array holds one entry a vertex, or none at all where the part does not have the attribute.
+///
+/// ```
+/// use bevy_coating::appearance::MeshPart;
+///
+/// let corner = MeshPart {
+///     positions: vec![[0.0, 0.0, 0.1]],
+///     stains: vec![[0.5, 0.0, 0.2, 0.0]],
+///     rest: vec![[0.0; 3]],
+///     rest_normals: vec![[0.0, 0.0, 1.0]],
+///     ..MeshPart::default()
+/// };
+/// assert_eq!(corner.sample(0).map(|sample| sample.rust), Some(0.5));
+/// assert_eq!(corner.sample(1), None, "there is one vertex only");
+/// assert!(corner.is_empty(), "a vertex without triangles draws nothing");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshPart {
-    /// Positions.
+    /// Positions, in metres.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals.
+    /// Normals, of unit length.
     pub normals: Vec<[f32; 3]>,
-    /// First texture coordinates.
+    /// First texture coordinates; empty if the prop has none, and for backs.
     pub uvs: Vec<[f32; 2]>,
-    /// Second texture coordinates.
+    /// Second texture coordinates; empty if the prop has none, and for backs and metal.
     pub uvs_1: Vec<[f32; 2]>,
-    /// Unit tangents, handedness in the fourth component.
+    /// Tangents of unit length, with the handedness in the fourth component; empty if the prop has none, and for backs
+    /// and metal.
     pub tangents: Vec<[f32; 4]>,
-    /// Linear colours.
+    /// Linear vertex colours with alpha; empty if the prop has none, and for backs and metal.
     pub colors: Vec<[f32; 4]>,
-    /// Stains: layers of rust, at most one, dust, moisture, and how far the metal has rusted at this place.
+    /// Stains of each vertex: layers of rust that has run off (0 to 1; more is cut off), dust (0 to 1), moisture (0 to
+    /// 1), and corrosion of the metal at this place (0 bright to 1 rusted through).
     pub stains: Vec<[f32; 4]>,
-    /// Where each vertex lies at rest: what patterns are tied to, so that they do not swim when flakes move.
+    /// Position of each vertex at rest, in metres. Patterns of stains are computed from it, so that they stay fixed to
+    /// the paint when flakes move.
     pub rest: Vec<[f32; 3]>,
-    /// Unit normal of each vertex at rest.
+    /// Normal of each vertex at rest, of unit length.
     pub rest_normals: Vec<[f32; 3]>,
-    /// Three vertices a triangle, wound as the prop's own triangles are.
+    /// Vertex indices, three a triangle. Fronts and metal are wound as the prop's own triangles, backs the other way.
     pub indices: Vec<u32>,
 }
 
-/// Layers of rust beyond which more looks the same. Between a vertex far above it and a clean one, almost the whole edge
-/// would be covered, and stains would have the outlines of triangles.
+/// Layers of rust beyond which more rust looks the same. Without this limit almost the whole edge between a vertex with
+/// many layers and a clean vertex would be covered, and stains would show the outlines of triangles.
 const MOST_LAYERS: f32 = 1.0;
 
-/// Stains of a vertex with `layers` of rust, as they are shown.
-pub(super) fn shown_stains(layers: f32, dust: f32, moisture: f32, corrosion: f32) -> [f32; 4] {
+/// Returns the entry of [`MeshPart::stains`] for a vertex with `layers` of rust.
+pub(super) fn vertex_stains(layers: f32, dust: f32, moisture: f32, corrosion: f32) -> [f32; 4] {
     [layers.min(MOST_LAYERS), dust, moisture, corrosion]
 }
 
 impl MeshPart {
-    /// Whether there is nothing to show.
+    /// Returns whether the part has no triangles, so that there is nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
     }
 
-    /// What is known of the stains of vertex `i`; `None` if there is none such.
+    /// Returns the stains of vertex `i` with its place and normal at rest, as [shading](super::shading) needs them.
+    /// `None` if the part has no such vertex or no stains.
     pub fn sample(&self, i: usize) -> Option<StainSample> {
         let (&stains, &rest, &normal) = (self.stains.get(i)?, self.rest.get(i)?, self.rest_normals.get(i)?);
         Some(StainSample::new(stains, rest.into(), normal.into()))
     }
 
+    /// Removes all vertices and triangles and keeps the buffers.
     pub(super) fn clear(&mut self) {
         self.positions.clear();
         self.normals.clear();

@@ -1,25 +1,27 @@
-//! Wedges: corners at one vertex with the same attributes are one vertex of the shown mesh.
+//! Merges corners at one vertex that have the same attributes into one mesh vertex, called a wedge.
 
-use super::{CornerAttributes, face_slots::FaceSlots};
+use super::{corners::CornerAttributes, face_slots::FaceSlots};
 use crate::film::{FilmMesh, HalfEdgeId, Topology};
 
-/// Attributes closer than this are the same. Far below what shows; above the rounding of interpolation.
+/// Largest difference between attributes that count as the same. It is far too small to be seen, and larger than the
+/// rounding of interpolation.
 const SAME: f32 = 1e-4;
 
-/// Which corners share a shown vertex.
+/// Mesh vertex of each corner.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wedges {
-    /// Wedge of each corner at rest; corners of different vertices, slots or attributes differ.
+    /// Wedge of each corner at rest. Corners of different vertices, slots or attributes have different wedges.
     rest: Vec<u32>,
-    /// Vertex of each corner now, in the front part of its slot.
+    /// Current vertex of each corner in the front part of its slot.
     now: Vec<u32>,
-    /// For each slot the corners that stand for its vertices.
+    /// One corner for each vertex of each slot's front part.
     corners: Vec<Vec<HalfEdgeId>>,
+    /// Number of wedges at rest.
     rest_count: usize,
 }
 
 impl Wedges {
-    /// Finds the wedges of a film. `mesh` may have torn since it was at rest.
+    /// Finds the wedges of a film at rest; `mesh` may have torn since.
     pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes, face_slots: &FaceSlots) -> Self {
         let topology = &mesh.topology;
         let mut by_vertex: Vec<HalfEdgeId> = topology.all_half_edges().collect();
@@ -39,17 +41,18 @@ impl Wedges {
         Self { rest, rest_count: count as usize, ..Self::default() }
     }
 
-    /// The wedge of `h` at rest.
+    /// Returns the wedge at rest of the corner at the start of `h`.
     pub fn at_rest(&self, h: HalfEdgeId) -> u32 {
         self.rest[h.index()]
     }
 
-    /// Number of wedges at rest.
+    /// Returns the number of wedges at rest.
     pub fn rest_count(&self) -> usize {
         self.rest_count
     }
 
-    /// Gives every wedge of every live vertex a vertex of its slot, in the order of vertices and of their fans.
+    /// Numbers the vertices of each slot's front part: one for each wedge of each live vertex, in the order of vertices
+    /// and of their fans.
     pub fn renew(&mut self, topology: &Topology, face_slots: &FaceSlots) {
         let Self { rest, now, corners, .. } = self;
         corners.resize_with(face_slots.slot_count(), Vec::new);
@@ -60,7 +63,7 @@ impl Wedges {
             let mut before = HalfEdgeId::NONE;
             for (i, h) in topology.fan(v).enumerate() {
                 let wedge = rest[h.index()];
-                // Mostly that of the corner before.
+                // Mostly the wedge of the corner before.
                 let same = before
                     .get()
                     .filter(|g| rest[g.index()] == wedge)
@@ -77,19 +80,19 @@ impl Wedges {
         }
     }
 
-    /// The corners that stand for the vertices of a slot's front.
+    /// Returns one corner for each vertex of a slot's front part.
     pub fn corners(&self, slot: usize) -> &[HalfEdgeId] {
         self.corners.get(slot).map_or(&[], Vec::as_slice)
     }
 
-    /// The vertex of `h` in the front part of its slot.
+    /// Returns the vertex of the corner at the start of `h` in the front part of its slot.
     pub fn vertex_of(&self, h: HalfEdgeId) -> u32 {
         self.now[h.index()]
     }
 }
 
 impl CornerAttributes {
-    /// Whether two corners look the same.
+    /// Returns whether two corners have the same attributes.
     fn same(&self, a: HalfEdgeId, b: HalfEdgeId) -> bool {
         let (a, b) = (a.index(), b.index());
         self.normals[a].abs_diff_eq(self.normals[b], SAME)
@@ -100,6 +103,7 @@ impl CornerAttributes {
     }
 }
 
+/// Returns whether the values of corners `a` and `b` are the same; true if the prop does not have the attribute.
 fn near<const N: usize, T: Copy + Into<[f32; N]>>(values: &[T], a: usize, b: usize) -> bool {
     values.is_empty() || values[a].into().iter().zip(values[b].into()).all(|(x, y)| (x - y).abs() <= SAME)
 }

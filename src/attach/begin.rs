@@ -1,4 +1,4 @@
-//! Beginning builds: which meshes make up one film, whether all is loaded, and what cannot be coated.
+//! Begins to build films: groups meshes, waits for their assets, and refuses meshes that cannot be coated.
 
 use std::sync::Arc;
 
@@ -36,7 +36,8 @@ use crate::{
     settings::CoatingSettings,
     shelter::ShelterScene,
 };
-/// Begins to build the films of all waiting meshes whose assets are loaded.
+
+/// Begins to build the films of all awaiting meshes whose assets are loaded.
 pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Query<(Entity, &AwaitingFilm)>) {
     let mut done: Vec<Entity> = Vec::new();
     for (entity, &AwaitingFilm { root }) in &awaiting {
@@ -56,7 +57,7 @@ pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Quer
         };
         for &slot in &slots {
             let Some(mesh) = world.get::<Mesh3d>(slot) else { continue };
-            let claim = FilmSlot { film, original: mesh.0.clone(), shown: None };
+            let claim = FilmSlot { film, original: mesh.0.clone(), display_mesh: None };
             commands.entity(slot).try_remove::<AwaitingFilm>().try_insert(claim);
         }
         let (key, scale) = (order.key, order.scale);
@@ -65,8 +66,8 @@ pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Quer
     }
 }
 
-/// The meshes that share a film with that of `entity`, and the entity of the film: siblings on their parent with an
-/// identity transform, unless the parent has a mesh itself.
+/// Returns the entity of the film for the mesh of `entity`, and the entities of all meshes that share it: its siblings
+/// with an identity transform, unless the parent has a mesh itself.
 fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>) {
     let alone = (entity, vec![entity]);
     let in_place = |e: Entity| world.get::<Transform>(e).is_some_and(|t| *t == Transform::IDENTITY);
@@ -81,6 +82,10 @@ fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>
     if group.len() < 2 || world.get::<CoatedBy>(parent).is_some() { alone } else { (parent, group) }
 }
 
+/// Collects the inputs of a build; `None` while assets are loading or shelters are not known.
+///
+/// # Errors
+/// [`CoatingFault`] if the meshes cannot be coated.
 fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
     check_fields(coating)?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
@@ -121,6 +126,7 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
     Ok(Some(FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint }))
 }
 
+/// Checks the ranges of a coating's own fields.
 fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {
     let range = "0 or more, and finite";
     for (field, found) in [("rate", coating.rate), ("start_age", coating.start_age)] {
@@ -134,6 +140,7 @@ fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {
     Ok(())
 }
 
+/// Returns the settings of a coating once they are loaded, and checks them.
 fn settings_of(world: &World, source: &SettingsSource) -> Waited<Arc<CoatingSettings>> {
     let settings = match source {
         SettingsSource::Inline(settings) => Some(settings),
@@ -142,12 +149,12 @@ fn settings_of(world: &World, source: &SettingsSource) -> Waited<Arc<CoatingSett
     settings.map(|settings| Ok(settings.validate().map(|()| Arc::new(settings.clone()))?)).transpose()
 }
 
-/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not part of every build of Bevy are known
-/// by their type paths.
+/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not
+/// part of every build of Bevy are recognised by their type paths.
 fn check_components(
     world: &World,
     entity: EntityRef,
-    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
+    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "materials need feature `render`"))] coating: &Coating,
 ) -> Result<(), CoatingFault> {
     if entity.contains::<SkinnedMesh>() {
         return Err(CoatingFault::Skinned);

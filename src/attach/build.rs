@@ -1,4 +1,4 @@
-//! Building a film in the background: from the prop's meshes to a film aged to its start.
+//! Builds a film in the background: from the prop's meshes to a film of its start age.
 
 use std::sync::Arc;
 
@@ -20,17 +20,23 @@ use crate::{
     stain::{Environment, exposure::ExposedSurface},
     surface::{BuildError, BuildWarning},
 };
-/// A film that is being built. Dropping it calls the work off.
+
+/// Film that is being built, on the film's entity. Dropping it cancels the build.
 #[derive(Component)]
 pub(crate) struct FilmBuild {
+    /// Build under way.
     pub task: Task<Result<Box<FilmReadiness>, CoatingFault>>,
+    /// Entity with the coating.
     pub root: Entity,
+    /// Entities whose meshes make up the film, by slot.
     pub slots: Vec<Entity>,
+    /// Fields of the coating with which the film is built.
     pub key: FilmKey,
+    /// World scale of the film's entity.
     pub scale: Vec3,
 }
 
-/// What a build needs; nothing of it is shared with the main thread.
+/// Inputs of a build, as copies that are not shared with the main thread.
 pub(super) struct FilmOrder {
     pub meshes: Vec<Mesh>,
     pub key: FilmKey,
@@ -38,12 +44,12 @@ pub(super) struct FilmOrder {
     pub quality: SolverQuality,
     pub scale: Vec3,
     pub environment: Environment,
-    /// What may shelter it, if rain or sun reach the film.
+    /// Meshes that may shelter the film; `None` without rain and sun, or if the coating does not ask for shelters.
     pub shelter: Option<CastOrder>,
     pub paint: FilmPaint,
 }
 
-/// A film that is ready to be put on its prop.
+/// Film that is ready to be put on its prop.
 pub(crate) struct FilmReadiness {
     pub film: FilmState,
     pub settings: Arc<CoatingSettings>,
@@ -52,7 +58,10 @@ pub(crate) struct FilmReadiness {
     pub shelter: FilmShelter,
 }
 
-/// Builds, dresses and ages a film.
+/// Builds a film, ages it to its start age and writes its display meshes.
+///
+/// # Errors
+/// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
     let FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint } = order;
     let (surface, attributes) = surface_of(meshes, *scale)?;
@@ -67,7 +76,7 @@ pub(super) fn build_film(order: &FilmOrder) -> Result<Box<FilmReadiness>, Coatin
     Ok(Box::new(FilmReadiness { film, settings: settings.clone(), warnings: built.warnings, display, shelter }))
 }
 
-/// Finds out what reaches a fresh film.
+/// Casts rays for a fresh film and stores its exposure to rain and sun.
 fn cast(mut order: CastOrder, film: &mut FilmState) -> FilmShelter {
     let surface = Arc::new(ExposedSurface::new(&film.mesh));
     order.cull(&surface);

@@ -1,4 +1,4 @@
-//! Taking a film off its prop, which gets its own mesh back.
+//! Takes a film off its prop, which gets its own mesh back.
 
 use bevy::{
     ecs::{
@@ -31,18 +31,20 @@ use crate::{
     sim::{FilmClock, StepScratch},
     stain::StainFields,
 };
-/// All that the plugin puts on the entity of a film.
+
+/// Components that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
     (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmBuild, FilmDisplay),
 );
 
-/// Takes the film on `film` off, ready or being built. Its meshes count as changed, so that they are looked at
-/// again in the next frame. Entities that are gone by then are passed over.
+/// Takes off the film on entity `film`, whether it is ready or being built. Its meshes are marked as changed, so that
+/// `find_meshes` checks them in the next frame. Despawned entities are skipped.
 pub(super) fn detach_film(commands: &mut Commands, film: Entity) {
     commands.queue(move |world: &mut World| detach_now(world, film));
 }
 
+/// Takes off the film on `film` at once.
 fn detach_now(world: &mut World, film: Entity) {
     let Ok(mut entity) = world.get_entity_mut(film) else { return };
     let source = entity.get::<FilmSource>().map(|source| source.slots.clone());
@@ -55,10 +57,10 @@ fn detach_now(world: &mut World, film: Entity) {
         if leaf.get::<FilmSlot>().is_none_or(|slot| slot.film != film) {
             continue;
         }
-        let Some(FilmSlot { original, shown, .. }) = leaf.take::<FilmSlot>() else { continue };
+        let Some(FilmSlot { original, display_mesh, .. }) = leaf.take::<FilmSlot>() else { continue };
         if let Some(mut mesh) = leaf.get_mut::<Mesh3d>() {
-            // A mesh that someone else has put there stays.
-            if shown.is_some_and(|shown| mesh.0 == shown) {
+            // A mesh that the game has put there meanwhile stays.
+            if display_mesh.is_some_and(|display_mesh| mesh.0 == display_mesh) {
                 mesh.0 = original;
             }
             mesh.set_changed();
@@ -66,6 +68,7 @@ fn detach_now(world: &mut World, film: Entity) {
     }
 }
 
+/// Despawns the children that draw backs and bare metal.
 fn despawn_parts(world: &mut World, film: Entity) {
     let children: Vec<Entity> = world.get::<Children>(film).map(|children| children.to_vec()).unwrap_or_default();
     for child in children {
@@ -75,7 +78,7 @@ fn despawn_parts(world: &mut World, film: Entity) {
     }
 }
 
-/// Gives all meshes below a coating that was removed back to themselves.
+/// Takes off all films of a coating that was removed, and unmarks the meshes that waited for it.
 pub(super) fn on_coating_removed(
     removed: On<Remove, Coating>,
     mut commands: Commands,

@@ -1,4 +1,4 @@
-//! Finding the meshes to be coated.
+//! Finds the meshes to be coated, and hands changes of coatings to their films.
 
 use std::sync::Arc;
 
@@ -26,7 +26,8 @@ use crate::{
     settings::CoatingSettings,
     shelter::FilmShelter,
 };
-/// The coatings and who is below whom.
+
+/// Coatings, and the hierarchy of entities.
 #[derive(SystemParam)]
 pub(super) struct Coatings<'w, 's> {
     pub coatings: Query<'w, 's, &'static Coating>,
@@ -35,18 +36,19 @@ pub(super) struct Coatings<'w, 's> {
 }
 
 impl Coatings<'_, '_> {
-    /// The nearest entity with a coating, from `entity` upwards.
+    /// Returns the nearest entity with a coating, from `entity` upwards.
     fn root_of(&self, entity: Entity) -> Option<Entity> {
         std::iter::once(entity).chain(self.parents.iter_ancestors(entity)).find(|&e| self.coatings.contains(e))
     }
 
-    /// `entity` and all below it.
+    /// Adds `entity` and all its descendants to `found`.
     fn below(&self, entity: Entity, found: &mut Vec<Entity>) {
         found.push(entity);
         found.extend(self.children.iter_descendants(entity));
     }
 }
 
+/// Query of the meshes that are not the plugin's own, and where they stand.
 type Meshes<'w, 's> = Query<
     'w,
     's,
@@ -54,7 +56,7 @@ type Meshes<'w, 's> = Query<
     Without<CoatingPart>,
 >;
 
-/// Looks at every mesh whose handle, place in the hierarchy or coating changed: marks it for coating, or takes its
+/// Checks every mesh whose handle, place in the hierarchy or coating changed: marks it as awaiting a film, or takes its
 /// film off.
 pub(super) fn find_meshes(
     mut commands: Commands,
@@ -88,7 +90,7 @@ pub(super) fn find_meshes(
         let Ok((mesh, slot, awaiting, refused)) = meshes.get(entity) else { continue };
         let root = coatings.root_of(entity);
         if let Some(slot) = slot {
-            let swapped = mesh.0 != slot.original && slot.shown.as_ref() != Some(&mesh.0);
+            let swapped = mesh.0 != slot.original && slot.display_mesh.as_ref() != Some(&mesh.0);
             let outdated = films.get(slot.film).map_or(true, |(coated_by, source, build)| {
                 let key = source.map(|source| source.key).or(build.map(|build| build.key));
                 let wanted = root.and_then(|root| coatings.coatings.get(root).ok()).map(|coating| coating.key());
@@ -114,7 +116,7 @@ pub(super) fn find_meshes(
     }
 }
 
-/// Hands changed settings, rates and pauses to the films.
+/// Hands changed settings, rates, pauses, qualities and shelters to the films.
 pub(super) fn follow_coatings(
     changed: Query<Entity, Changed<Coating>>,
     coatings: Query<&Coating>,

@@ -1,4 +1,4 @@
-//! Finished builds are put on their props, or refused.
+//! Puts finished films on their props, and refuses meshes that could not be coated.
 
 use bevy::{
     asset::Assets,
@@ -26,6 +26,7 @@ use crate::{
     appearance::DisplayChanges,
     sim::FilmState,
 };
+
 /// Puts finished films on their props.
 pub(super) fn finish_builds(
     mut commands: Commands,
@@ -36,7 +37,7 @@ pub(super) fn finish_builds(
 ) {
     for (film, mut build) in &mut builds {
         let Some(result) = check_ready(&mut build.task) else { continue };
-        // A mesh that was swapped or despawned in the meantime: what is left is looked at again.
+        // If a mesh was swapped or despawned meanwhile, the build is discarded and the meshes are checked again.
         let current =
             |&slot: &Entity| slots.get(slot).is_ok_and(|(mesh, slot)| slot.film == film && mesh.0 == slot.original);
         let Ok(coating) = coatings.get(build.root) else {
@@ -65,7 +66,7 @@ pub(super) fn finish_builds(
                     let Ok((_, claim)) = slots.get(slot) else { continue };
                     // A primitive of which no face was left keeps its own mesh.
                     let handle = handle.unwrap_or_else(|| claim.original.clone());
-                    let claim = FilmSlot { shown: Some(handle.clone()), ..claim.clone() };
+                    let claim = FilmSlot { display_mesh: Some(handle.clone()), ..claim.clone() };
                     commands.entity(slot).try_insert((Mesh3d(handle), claim));
                 }
                 let source = FilmSource { key: build.key, slots: std::mem::take(&mut build.slots), scale: build.scale };
@@ -80,7 +81,7 @@ pub(super) fn finish_builds(
     }
 }
 
-/// Leaves meshes as they are, and says why.
+/// Marks meshes as refused, logs the reason and sends [`FilmFailed`].
 pub(super) fn refuse(commands: &mut Commands, film: Entity, root: Entity, slots: &[Entity], cause: CoatingFault) {
     let error = CoatingError { entity: film, cause };
     error!("{error}");

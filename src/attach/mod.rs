@@ -1,4 +1,4 @@
-//! From a `Coating` to films on the meshes below it, and back.
+//! Puts films on the meshes below a `Coating`, and takes them off again.
 //!
 //! ```text
 //! mesh found --AwaitingFilm--> assets loaded --FilmBuild--> task done --> film components, Mesh3d swapped
@@ -6,7 +6,7 @@
 //!      +---------------- handle swapped, coating changed -------+------------------------+
 //! ```
 //!
-//! All of it runs in `PostUpdate` once transforms are known, and nothing waits for a build.
+//! The systems run in `PostUpdate` after transforms have been propagated. No frame waits for a build.
 
 mod begin;
 mod build;
@@ -25,6 +25,7 @@ use crate::{
     shelter::{self, ShelterScene},
 };
 
+/// Adds the systems that put films on props, and the survey of shelters between them.
 pub(crate) fn add_attachment(app: &mut App) {
     app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
     app.init_resource::<ShelterScene>();

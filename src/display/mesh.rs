@@ -1,4 +1,4 @@
-//! From the arrays of a shown part to a mesh.
+//! Writes the arrays of a part to a Bevy mesh.
 
 use bevy::{
     asset::RenderAssetUsages,
@@ -6,57 +6,79 @@ use bevy::{
     mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues, VertexFormat},
 };
 
-use super::FilmPaint;
+use super::film_paint::FilmPaint;
 use crate::{
     appearance::{MeshPart, shading::StainPart},
     mesh_reader::SlotAttributes,
 };
-/// Stains of each vertex of a film's meshes: layers of rust (at most one), dust, moisture, and how far the metal has rusted there
-/// ([`MeshPart::stains`]). Present while they are shown by a material.
+
+/// Vertex attribute with the stains of a film's meshes: layers of rust (0 to 1), dust, moisture and corrosion of the
+/// metal, as [`MeshPart::stains`] has them. It is present while stains are drawn by a material
+/// ([`StainDisplay::Material`](crate::api::stain_display::StainDisplay::Material)).
+///
+/// ```
+/// use bevy::{mesh::VertexAttributeValues, prelude::*};
+/// use bevy_coating::ATTRIBUTE_STAINS;
+///
+/// /// Returns the rust on each vertex of a film's mesh.
+/// fn rust(mesh: &Mesh) -> Vec<f32> {
+///     match mesh.attribute(ATTRIBUTE_STAINS) {
+///         Some(VertexAttributeValues::Float32x4(stains)) => stains.iter().map(|stains| stains[0]).collect(),
+///         _ => Vec::new(),
+///     }
+/// }
+///
+/// assert!(rust(&Cuboid::default().into()).is_empty(), "a mesh that no film was built of");
+/// ```
 pub const ATTRIBUTE_STAINS: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_Stains", 0x636f_6174_7374_6169, VertexFormat::Float32x4);
 
-/// Where each vertex of a film's meshes lies at rest, in metres in the film's space ([`MeshPart::rest`]). Present while
-/// stains are shown by a material.
+/// Vertex attribute with the position at rest of a film's meshes, in metres in the film's space ([`MeshPart::rest`]).
+/// It is present while stains are drawn by a material.
 pub const ATTRIBUTE_REST: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_Rest", 0x636f_6174_7265_7374, VertexFormat::Float32x3);
 
-/// Unit normal of each vertex of a film's meshes at rest ([`MeshPart::rest_normals`]). Present while stains are shown by a
-/// material.
+/// Vertex attribute with the unit normal at rest of a film's meshes ([`MeshPart::rest_normals`]). It is present while
+/// stains are drawn by a material.
 pub const ATTRIBUTE_REST_NORMAL: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_RestNormal", 0x636f_6174_6e6f_726d, VertexFormat::Float32x3);
 
-/// What the stains of a part's mesh go into.
+/// Vertex attributes that carry the stains of a part's mesh.
 #[derive(Clone, Copy)]
 pub(super) enum StainCarrier {
     /// [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`] and [`ATTRIBUTE_REST_NORMAL`].
     Attributes,
-    /// The vertices' colours.
+    /// Vertex colours.
     Colors,
-    /// Nothing.
+    /// No attributes: stains are not drawn.
     Nothing,
 }
 
-/// How a part's stains get into its mesh.
+/// Settings with which the stains of a part are written to its mesh.
 #[derive(Clone, Copy)]
 pub(super) struct StainWriter<'a> {
+    /// Kind of the part.
     pub part: StainPart,
+    /// Colours and patterns of the stains.
     pub paint: &'a FilmPaint,
+    /// Attributes that carry the stains.
     pub carrier: StainCarrier,
     /// Mean distance between vertices, in metres.
     pub edge: f32,
 }
 
-/// Turns arrays in the film's space, which has the prop's world scale applied, into those of the prop's mesh.
+/// Transform from the film's space, which has the prop's world scale applied, to the space of the prop's mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PartSpace {
     scale: Vec3,
-    /// Whether directions need turning, too.
+    /// Whether directions change, too.
     skewed: bool,
+    /// Whether the film is a mirror image of the prop's mesh.
     mirrored: bool,
 }
 
 impl PartSpace {
+    /// Returns the transform for a prop of world scale `scale`.
     pub fn new(scale: Vec3) -> Self {
         Self {
             scale,
@@ -65,7 +87,7 @@ impl PartSpace {
         }
     }
 
-    /// Whether the film is a mirror image of the prop's mesh.
+    /// Returns whether the film is a mirror image of the prop's mesh.
     #[cfg(feature = "render")]
     pub fn is_mirrored(&self) -> bool {
         self.mirrored
@@ -75,7 +97,7 @@ impl PartSpace {
         (Vec3::from_array(p) / self.scale).to_array()
     }
 
-    /// Normals go over with the inverse transpose, which undoes what they came with.
+    /// Transforms a normal by the inverse transpose, which undoes the transform that it was read with.
     fn normal(&self, n: [f32; 3]) -> [f32; 3] {
         if self.skewed { (Vec3::from_array(n) * self.scale).normalize_or_zero().to_array() } else { n }
     }
@@ -93,13 +115,13 @@ impl PartSpace {
     }
 }
 
-/// An empty mesh that stays in the main world, to be written again and again.
+/// Returns an empty mesh that stays in the main world, so that it can be rewritten.
 pub(super) fn new_mesh() -> Mesh {
     Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::MAIN_WORLD | RenderAssetUsages::RENDER_WORLD)
 }
 
-/// Writes a whole part. Of the attributes only those that the prop's own mesh has are written, normals always, and what
-/// carries the stains. Where nothing is left, one triangle without area stands in: a mesh must not be empty.
+/// Writes a whole part: positions, normals, the further attributes that the prop's own mesh has, and the attributes
+/// that carry the stains. For an empty part it writes one triangle without area, as a mesh must not be empty.
 pub(super) fn write_part(
     mesh: &mut Mesh,
     part: &MeshPart,
@@ -140,7 +162,7 @@ pub(super) fn write_part(
     let [a, b, c] = space.index_order();
     let indices =
         if nothing { vec![0, 1, 2] } else { part.indices.chunks_exact(3).flat_map(|t| [t[a], t[b], t[c]]).collect() };
-    // Fails only for meshes that have been handed over to the GPU; ours stay.
+    // This fails only for meshes whose data is on the GPU only, which the plugin's meshes never are.
     let _ = mesh.try_insert_indices(Indices::U32(indices));
 }
 
@@ -159,7 +181,7 @@ pub(super) fn write_stains(mesh: &mut Mesh, part: &MeshPart, stains: StainWriter
     }
 }
 
-/// Attributes of a part that has nothing left are those of the triangle that stands in.
+/// Returns the values of an attribute, or `stand_in` for each corner of the triangle of an empty part.
 fn whole<T: Copy>(values: &[T], nothing: bool, stand_in: T) -> Vec<T> {
     if nothing { vec![stand_in; 3] } else { values.to_vec() }
 }
@@ -180,17 +202,20 @@ pub(super) fn move_part(mesh: &mut Mesh, part: &MeshPart, space: PartSpace) {
     }
 }
 
+/// Rewrites `values` with the transformed values of `from`.
 fn renew<T: Copy>(values: &mut Vec<T>, from: &[T], turn: impl Fn(T) -> T) {
     values.clear();
     values.extend(from.iter().map(|&value| turn(value)));
 }
 
+/// Sets an attribute of a mesh.
 fn insert(mesh: &mut Mesh, attribute: MeshVertexAttribute, values: impl Into<VertexAttributeValues>) {
-    // Fails only for meshes that have been handed over to the GPU; ours stay.
+    // This fails only for meshes whose data is on the GPU only, which the plugin's meshes never are.
     let _ = mesh.try_insert_attribute(attribute, values);
 }
 
+/// Removes an attribute of a mesh, if it has it.
 fn remove(mesh: &mut Mesh, attribute: MeshVertexAttribute) {
-    // As above.
+    // As in `insert`.
     let _ = mesh.try_remove_attribute(attribute);
 }

@@ -1,19 +1,23 @@
-//! Display: the [shown parts](crate::appearance) of each film become Bevy meshes, materials and children.
+//! Draws films: turns the [appearance](crate::appearance) of each film into Bevy meshes, materials and child entities.
 //!
-//! - The prop's [`Mesh3d`](bevy::mesh::Mesh3d) is swapped for a mesh of the film that wears the prop's surface; the
-//!   material goes on showing, with stains over it as [`StainDisplay`] says. Every prop has a mesh asset of its own, so
-//!   instances age apart.
+//! - The prop's [`Mesh3d`](bevy::mesh::Mesh3d) is replaced by a mesh of the film with the prop's own attributes. The
+//!   prop's material stays in use, with stains over it as
+//!   [`StainDisplay`](crate::api::stain_display::StainDisplay) says. Every prop has its own mesh asset, so that
+//!   instances age independently.
 //! - With feature `render`, once some film has separated, two children of the film's entity
-//!   ([`CoatingPart`](crate::plugin::CoatingPart)) show the backs of flakes in the primer's colour, and the bare
-//!   metal, both with their stains. Without it there are no materials to show them with, and they are left out.
+//!   ([`CoatingPart`](crate::api::links::CoatingPart)) draw the backs of flakes and the bare metal, with their stains.
+//!   Without that feature there are no materials for them, and they are left out.
 //!
-//! Assets are touched only in frames in which the film changed.
+//! Assets are changed only in frames in which the film changed.
 
 mod film_display;
+mod film_paint;
 #[cfg(feature = "render")]
 mod material;
 mod mesh;
 mod paint;
+#[cfg(feature = "render")]
+mod part_handles;
 #[cfg(feature = "render")]
 mod parts;
 
@@ -25,16 +29,20 @@ use bevy::{
 };
 
 pub(crate) use film_display::FilmDisplay;
+pub(crate) use film_paint::FilmPaint;
 #[cfg(feature = "render")]
-pub use material::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+pub(crate) use material::ready::is_material_ready;
+#[cfg(feature = "render")]
+pub use material::{
+    dress::CoatedMaterial,
+    extension::{StainExtension, StainedMaterial},
+    view::StainView,
+};
 pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
-pub(crate) use paint::FilmPaint;
-#[cfg(feature = "render")]
-pub(crate) use parts::is_material_ready;
 
 use crate::api::system_sets::{CoatingAttach, CoatingDisplay};
 
-/// Shows films.
+/// Plugin that draws films.
 pub(crate) struct FilmDisplayPlugin;
 
 impl Plugin for FilmDisplayPlugin {
@@ -64,10 +72,10 @@ impl Plugin for FilmDisplayPlugin {
             app.add_systems(
                 PostUpdate,
                 (
-                    material::undress_props,
-                    material::dress_props,
-                    material::follow_standard_materials,
-                    material::follow_paint,
+                    material::dress::undress_props,
+                    material::dress::dress_props,
+                    material::follow::follow_standard_materials,
+                    material::follow::follow_paint,
                 )
                     .chain()
                     .after(parts::write_parts)
@@ -76,7 +84,7 @@ impl Plugin for FilmDisplayPlugin {
         }
     }
 
-    /// Tells when the plugin came before the renderer and so could not add its material.
+    /// Warns if the plugin was added before the renderer and so could not add its material.
     #[cfg(feature = "render")]
     fn finish(&self, app: &mut App) {
         if material::can_draw(app) && !material::is_added(app) {

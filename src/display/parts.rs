@@ -1,4 +1,5 @@
-//! The backs of flakes and the bare metal: two children of a film's entity, spawned when they are first seen.
+//! Writes the backs of flakes and the bare metal to two children of a film's entity, which are spawned when there is
+//! first something to draw.
 
 use bevy::{
     asset::{Assets, Handle},
@@ -10,24 +11,29 @@ use bevy::{
         hierarchy::ChildOf,
         name::Name,
         system::{Commands, Query, Res, ResMut, SystemParam},
-        world::{EntityRef, World},
     },
     light::{NotShadowCaster, NotShadowReceiver},
     mesh::{Mesh, Mesh3d},
     pbr::{MeshMaterial3d, StandardMaterial},
-    prelude::{AlphaMode, Visibility},
+    prelude::Visibility,
     render::render_resource::Face,
     transform::components::{GlobalTransform, Transform},
 };
 
 use super::{
-    CoatedMaterial, FilmDisplay, FilmPaint, StainExtension, StainView, StainedMaterial,
+    film_display::FilmDisplay,
+    film_paint::FilmPaint,
+    material::{
+        dress::CoatedMaterial,
+        extension::{StainExtension, StainedMaterial},
+        view::StainView,
+    },
     mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
+    part_handles::{PartHandle, PartMaterial},
 };
 use crate::{
     api::{
         diagnostics::CoatingTimings,
-        error::CoatingFault,
         links::{CoatingPart, FilmSource},
         stain_display::StainDisplay,
     },
@@ -35,73 +41,25 @@ use crate::{
     mesh_reader::SlotAttributes,
     sim::Stage,
 };
-/// What a film's backs and metal are shown with, once they are.
-#[derive(Default)]
-pub(super) struct PartHandles {
-    backs: Option<PartHandle>,
-    metal: Option<PartHandle>,
-}
 
-struct PartHandle {
-    entity: Entity,
-    mesh: Handle<Mesh>,
-    material: PartMaterial,
-}
+pub(super) use super::part_handles::PartHandles;
 
-enum PartMaterial {
-    /// Draws the stains.
-    Stained(Handle<StainedMaterial>),
-    /// Heeds the vertices' colours, where there is no other or the coating wants it so.
-    Plain(Handle<StandardMaterial>),
-}
-
-impl PartHandles {
-    /// The materials that draw stains.
-    pub fn stained(&self) -> impl Iterator<Item = &Handle<StainedMaterial>> {
-        [&self.backs, &self.metal].into_iter().flatten().filter_map(|part| match &part.material {
-            PartMaterial::Stained(handle) => Some(handle),
-            PartMaterial::Plain(_) => None,
-        })
-    }
-}
-
-/// Whether the app has standard materials at all: a server may not.
+/// Returns whether the app has standard materials at all; a server may not.
 pub(super) fn has_materials(materials: Option<Res<Assets<StandardMaterial>>>) -> bool {
     materials.is_some()
 }
 
-/// Whether the material of a mesh is known; refuses blended ones.
-///
-/// # Errors
-/// [`CoatingFault::AlphaBlended`].
-pub(crate) fn is_material_ready(world: &World, entity: EntityRef) -> Result<bool, CoatingFault> {
-    // Its film has just gone; it gets its own material back within the frame.
-    if entity.contains::<CoatedMaterial>() {
-        return Ok(false);
-    }
-    let Some(MeshMaterial3d(handle)) = entity.get::<MeshMaterial3d<StandardMaterial>>() else { return Ok(true) };
-    if !world.contains_resource::<Assets<StandardMaterial>>() {
-        return Ok(true);
-    }
-    let fault = CoatingFault::MaterialNotLoaded;
-    let Some(material) = crate::api::assets::loaded(world, handle, fault)? else { return Ok(false) };
-    match material.alpha_mode {
-        AlphaMode::Opaque | AlphaMode::Mask(_) | AlphaMode::AlphaToCoverage => Ok(true),
-        _ => Err(CoatingFault::AlphaBlended),
-    }
-}
-
-/// How the prop's own materials show their sides.
-struct Sides {
+/// Sides of the prop's faces that its own materials draw.
+struct MaterialSides {
     cull_mode: Option<Face>,
     double_sided: bool,
-    /// Side that is not shown where only one is.
+    /// Side that is not drawn where only one is.
     hidden: Face,
 }
 
-impl Sides {
-    /// Those of the first primitive with a standard material; two-sided if any is. `None` without a material: then
-    /// nothing is drawn of the prop, either.
+impl MaterialSides {
+    /// Returns the sides of the first primitive with a standard material, or of the first one that is two-sided. `None`
+    /// without such a material: then the prop is not drawn, either.
     fn of(
         slots: &[Entity],
         props: &Query<PropParts<'static>>,
@@ -127,7 +85,7 @@ impl Sides {
     }
 }
 
-/// What the children take over from the prop.
+/// Components of the prop that the children take over.
 type PropParts<'a> = (
     Option<&'a MeshMaterial3d<StandardMaterial>>,
     Option<&'a CoatedMaterial>,
@@ -136,7 +94,7 @@ type PropParts<'a> = (
     Option<&'a NotShadowReceiver>,
 );
 
-/// Writes the backs and the metal of the films that changed, and spawns them when there are some for the first time.
+/// Writes the backs and the metal of the films that changed, and spawns them when there is first something to draw.
 pub(super) fn write_parts(
     mut films: Query<(Entity, &FilmSource, &GlobalTransform, &mut FilmDisplay)>,
     mut assets: PartAssets,
@@ -160,14 +118,14 @@ pub(super) fn write_parts(
     });
 }
 
-/// Where a part is spawned.
+/// Place where a part is spawned.
 struct Home<'a> {
     film: Entity,
     transform: &'a GlobalTransform,
     source: &'a FilmSource,
 }
 
-/// What parts are written to.
+/// Assets and commands with which parts are written.
 #[derive(SystemParam)]
 pub(super) struct PartAssets<'w, 's> {
     commands: Commands<'w, 's>,
@@ -187,22 +145,22 @@ impl PartAssets<'_, '_> {
         changes: DisplayChanges,
         home: &Home,
     ) {
-        let shown = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
+        let arrays = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
         let paint = &display.paint;
         let by_material = paint.display == StainDisplay::Material && self.stained.is_some();
         let carrier = if by_material { StainCarrier::Attributes } else { StainCarrier::Colors };
         let stains = StainWriter { part: kind, paint, carrier, edge: display.edge };
-        // Stains are shown another way: with another mesh layout and another type of material, on another entity.
+        // Another way of drawing stains needs another mesh layout and another type of material, so another entity.
         if let Some(old) = part.take_if(|old| matches!(old.material, PartMaterial::Stained(_)) != by_material) {
             self.commands.entity(old.entity).try_despawn();
         }
         if let Some(part) = part {
-            self.write(part, shown, stains, changes, display.space);
-        } else if !shown.is_empty()
-            && let Some(sides) = Sides::of(&home.source.slots, &self.props, &self.plain, display.space)
+            self.write(part, arrays, stains, changes, display.space);
+        } else if !arrays.is_empty()
+            && let Some(sides) = MaterialSides::of(&home.source.slots, &self.props, &self.plain, display.space)
         {
             let mut mesh = new_mesh();
-            write_part(&mut mesh, shown, SlotAttributes::default(), display.space, stains);
+            write_part(&mut mesh, arrays, SlotAttributes::default(), display.space, stains);
             let mesh = self.meshes.add(mesh);
             let base = if kind == StainPart::Back { primer(paint, &sides) } else { bare_metal(paint, &sides) };
             let material = self.add_material(base, kind, paint, by_material);
@@ -211,10 +169,11 @@ impl PartAssets<'_, '_> {
         }
     }
 
+    /// Writes what changed of one part to its mesh.
     fn write(
         &mut self,
         part: &PartHandle,
-        shown: &MeshPart,
+        arrays: &MeshPart,
         stains: StainWriter,
         changes: DisplayChanges,
         space: PartSpace,
@@ -227,17 +186,18 @@ impl PartAssets<'_, '_> {
         }
         let Some(mut mesh) = self.meshes.get_mut(&part.mesh) else { return };
         if whole {
-            write_part(&mut mesh, shown, SlotAttributes::default(), space, stains);
+            write_part(&mut mesh, arrays, SlotAttributes::default(), space, stains);
             return;
         }
         if moved {
-            move_part(&mut mesh, shown, space);
+            move_part(&mut mesh, arrays, space);
         }
         if changes.stains {
-            write_stains(&mut mesh, shown, stains);
+            write_stains(&mut mesh, arrays, stains);
         }
     }
 
+    /// Adds the material of a part.
     fn add_material(
         &mut self,
         base: StandardMaterial,
@@ -255,6 +215,7 @@ impl PartAssets<'_, '_> {
         }
     }
 
+    /// Spawns the entity of a part as a child of the film.
     fn spawn(&mut self, kind: StainPart, mesh: &Handle<Mesh>, material: &PartMaterial, home: &Home) -> Entity {
         let name = if kind == StainPart::Back { "paint backs" } else { "bare metal" };
         let place = (Transform::IDENTITY, *home.transform, Visibility::Inherited, ChildOf(home.film));
@@ -273,8 +234,8 @@ impl PartAssets<'_, '_> {
     }
 }
 
-/// The back of the paint. Its triangles are wound against the prop's, so one side is enough.
-fn primer(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
+/// Returns the material of the backs. Their triangles are wound against the prop's, so one side is enough.
+fn primer(paint: &FilmPaint, sides: &MaterialSides) -> StandardMaterial {
     let shading = paint.shading.primer.surface();
     StandardMaterial {
         base_color: Color::LinearRgba(LinearRgba::from_vec3(shading.base_color)),
@@ -285,9 +246,9 @@ fn primer(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
     }
 }
 
-/// Bare metal, shown from the sides from which the prop is. How it looks comes from its stains; where only their
-/// colours can be shown, it is half steel and half rust.
-fn bare_metal(paint: &FilmPaint, sides: &Sides) -> StandardMaterial {
+/// Returns the material of the bare metal, drawn from the same sides as the prop. Its stains give it its shading; where
+/// they are drawn as vertex colours only, metalness and roughness are halfway between steel and rust.
+fn bare_metal(paint: &FilmPaint, sides: &MaterialSides) -> StandardMaterial {
     StandardMaterial {
         base_color: Color::WHITE,
         metallic: 0.5 * paint.shading.metal.metallic,

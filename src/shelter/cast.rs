@@ -1,4 +1,4 @@
-//! Beginning casts.
+//! Begins the casts of rays for films whose exposure is out of date.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use bevy::{
 };
 
 use super::{
-    FilmShelter, ShelterScene,
-    film::{RESTLESS, Seen},
+    film::{FilmShelter, RESTLESS, Seen},
     key::falls,
+    scene::ShelterScene,
 };
 use crate::{
     api::{
@@ -27,7 +27,8 @@ use crate::{
     film::FilmMesh,
     stain::{Exposure, StainFields, exposure::ExposedSurface},
 };
-/// How far a film may move against what shelters it, in mean edges.
+
+/// Distance by which a film may move against its shelters before rays are cast again, in mean edge lengths.
 const TOLERANCE: f32 = 0.25;
 
 /// Begins a cast for every film whose exposure is out of date.
@@ -65,7 +66,7 @@ pub(crate) fn cast(
         if known.is_some_and(|key| key.holds(&order.key, surface.sphere(), tolerance)) {
             (shelter.settled, shelter.overdue) = (true, false);
         } else if shelter.under_way.is_some() && moved {
-            // To call it off would mean to begin anew in every frame, and never to finish.
+            // A cast that was called off whenever something moved would never finish while things keep moving.
             shelter.overdue = shelter.restless < RESTLESS;
         } else {
             let (surface, key) = (surface.clone(), order.key.clone());

@@ -1,4 +1,4 @@
-//! What shelters one film.
+//! Keeps the state of one film's shelter: its last cast and the one under way.
 
 use std::sync::Arc;
 
@@ -13,52 +13,56 @@ use crate::{
     api::shelter::Shelter,
     stain::{Environment, Exposure, StainFields, exposure::ExposedSurface},
 };
-/// Frames in a row in which something moved after which a film no longer waits for it to come to rest.
+
+/// Number of successive frames with movement after which a film no longer waits for the movement to end.
 pub(super) const RESTLESS: u32 = 8;
 
-/// What shelters one film: on its entity.
+/// Shelter of one film, on the film's entity.
 #[derive(Component, Debug, Default)]
 pub(crate) struct FilmShelter {
-    /// What the coating asks for.
+    /// Choice of the coating.
     pub choice: Shelter,
-    /// The film at rest; made when it is first needed.
+    /// Surface of the film at rest; made when it is first needed.
     pub surface: Option<Arc<ExposedSurface>>,
-    /// What the film's exposure was cast for.
+    /// Conditions for which the film's exposure was cast.
     pub cast: Option<CastKey>,
-    /// The cast under way and what it is for. Dropping it calls it off.
+    /// Cast under way and its conditions. Dropping it cancels the cast.
     pub under_way: Option<(Task<Exposure>, CastKey)>,
-    /// What was looked at last.
+    /// Scene, place and weather at the last check.
     pub seen: Option<Seen>,
-    /// Frames in a row in which that changed.
+    /// Number of successive frames in which `seen` changed.
     pub restless: u32,
-    /// Whether the exposure, or the cast under way, is that of what was looked at last.
+    /// Whether the exposure, or the cast under way, is for `seen`.
     pub settled: bool,
-    /// Whether a cast is needed that could not be begun yet.
+    /// Whether a cast is needed but could not be begun yet.
     pub overdue: bool,
 }
 
-/// All that goes into a cast, exactly.
+/// Exact inputs of a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
+    /// Revision of the scene.
     pub revision: u64,
+    /// Transform of the film.
     pub place: Affine3A,
+    /// Directions of rain and sun in the film's space.
     pub falls: [Vec3; 2],
 }
 
 impl FilmShelter {
-    /// That of a film whose exposure was cast for `key` when it was built.
+    /// Returns the shelter of a film whose exposure was cast for `key` while it was built.
     pub fn of_built(surface: Arc<ExposedSurface>, key: CastKey) -> Self {
         Self { surface: Some(surface), cast: Some(key), ..Self::default() }
     }
 
-    /// Forgets all that was cast when the coating asks for something else.
+    /// Sets the choice of the coating. A new choice discards the casts so far.
     pub fn choose(&mut self, choice: Shelter) {
         if self.choice != choice {
             *self = Self { choice, ..Self::default() };
         }
     }
 
-    /// Takes over a finished cast.
+    /// Writes the result of a finished cast to `stains`.
     pub fn finish(&mut self, stains: &mut StainFields) {
         let Some((task, _)) = &mut self.under_way else { return };
         let Some(exposure) = check_ready(task) else { return };
@@ -66,10 +70,10 @@ impl FilmShelter {
         self.cast = self.under_way.take().map(|(_, key)| key);
     }
 
-    /// Whether the film must wait before it steps under `environment`.
+    /// Returns whether the film must wait for a cast before it steps under `environment`.
     ///
-    /// What moves all the time is never quite up to date: then each cast is good for the steps of one frame, so that
-    /// the film goes on.
+    /// While things move all the time the exposure is never quite up to date. Then each finished cast serves the steps
+    /// of one frame, so that the film goes on ageing.
     pub fn holds_back(&self, environment: &Environment) -> bool {
         let falls = falls(environment);
         if self.choice != Shelter::Scene || falls == [Vec3::ZERO; 2] {

@@ -1,4 +1,4 @@
-//! What an exposure is cast for, and when that is no longer true.
+//! Defines the conditions of a cast, and decides when they have changed too much.
 
 use bevy::{
     ecs::entity::Entity,
@@ -10,57 +10,62 @@ use crate::stain::{
     exposure::{Blocker, ExposedSurface},
 };
 
-/// Cosine of the angle by which rain and sun may turn, 1 degree.
+/// Cosine of 1 degree, the angle by which rain and sun may turn before rays are cast again.
 const SAME_DIRECTION: f32 = 0.999_848;
 
-/// What an exposure is cast for, in the film's space.
+/// Conditions for which an exposure was cast, in the film's space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CastKey {
     /// Directions of rain and sun: unit vectors, or zero where there is none.
     falls: [Vec3; 2],
-    /// What may stand in the way, by entity.
+    /// Meshes that may stand in the way, sorted by entity.
     pieces: Vec<KeyPiece>,
 }
 
+/// Mesh that may stand in the way, and where.
 #[derive(Clone, Copy, Debug)]
 struct KeyPiece {
     entity: Entity,
     /// Version of its mesh.
     version: u64,
+    /// Transform from the film's space into the mesh's.
     into: Affine3A,
 }
 
-/// A cast to be done.
+/// Order for a cast: its conditions and the triangles that may stand in the way.
 #[derive(Clone, Debug)]
 pub(crate) struct CastOrder {
+    /// Conditions of the cast.
     pub key: CastKey,
-    /// One for each piece of the key.
+    /// Triangles of each piece of the key.
     blockers: Vec<Blocker>,
 }
 
-/// Directions of rain and sun.
+/// Returns the directions of rain and sun as unit vectors, or zero where there is none.
 pub(super) fn falls(environment: &Environment) -> [Vec3; 2] {
     [environment.rain, environment.sun].map(Vec3::normalize_or_zero)
 }
 
-/// Whether `b` is the direction `a`, or near enough.
+/// Returns whether `a` and `b` are the same direction, to within [`SAME_DIRECTION`].
 fn is_same_direction(a: Vec3, b: Vec3) -> bool {
     a == b || a.dot(b) >= SAME_DIRECTION
 }
 
 impl CastKey {
-    /// Whether an exposure to whatever falls now was cast at all.
+    /// Returns whether rays were cast for rain if it rains now, and for sun if it shines now, and for nothing else.
     pub fn covers(&self, falls: [Vec3; 2]) -> bool {
         self.falls.iter().zip(falls).all(|(&cast, now)| (cast == Vec3::ZERO) == (now == Vec3::ZERO))
     }
 
-    /// Whether rain and sun fall as they did, or nearly.
+    /// Returns whether rain and sun have nearly the directions of the cast.
     pub fn faces(&self, falls: [Vec3; 2]) -> bool {
         self.covers(falls) && self.falls.iter().zip(falls).all(|(&cast, now)| is_same_direction(cast, now))
     }
 
-    /// Whether an exposure that was cast for this key holds for the key `now`, on a film within a sphere (its middle
-    /// and radius) that may move by `tolerance` against what shelters it.
+    /// Returns whether an exposure that was cast for this key still holds under the key `now`.
+    ///
+    /// `sphere` is the centre and radius of the film, and `tolerance` the distance by which it may have moved against
+    /// its shelters, in metres.
     pub fn holds(&self, now: &Self, sphere: (Vec3, f32), tolerance: f32) -> bool {
         self.faces(now.falls)
             && self.pieces.len() == now.pieces.len()
@@ -71,9 +76,10 @@ impl CastKey {
             })
     }
 
-    /// Whether film and piece lie to each other as they did, and rain and sun to the piece.
+    /// Returns whether the film lies nearly as it did relative to `piece`, and rain and sun do, too.
     fn is_near(&self, cast: &KeyPiece, piece: &KeyPiece, now: &Self, sphere: (Vec3, f32), tolerance: f32) -> bool {
-        // Where a point of the film is now, seen from the piece, as a place in the film as it was.
+        // Maps a point of the film now to the point of the film at the cast that had the same place relative to the
+        // piece.
         let change = cast.into.inverse() * piece.into;
         let (center, radius) = sphere;
         let corners = [Vec3::ZERO, Vec3::X * radius, Vec3::Y * radius, Vec3::Z * radius].map(|corner| center + corner);
@@ -87,18 +93,18 @@ impl CastKey {
 }
 
 impl CastOrder {
-    /// A cast against nothing yet.
+    /// Returns an order without any meshes.
     pub fn new(environment: &Environment) -> Self {
         Self { key: CastKey { falls: falls(environment), pieces: Vec::new() }, blockers: Vec::new() }
     }
 
-    /// Adds something that may stand in the way.
+    /// Adds a mesh that may stand in the way.
     pub fn push(&mut self, entity: Entity, version: u64, blocker: Blocker) {
         self.key.pieces.push(KeyPiece { entity, version, into: blocker.into });
         self.blockers.push(blocker);
     }
 
-    /// Leaves out what cannot stand in the way of anything that falls on `surface`.
+    /// Removes the meshes that cannot stand in the way of rain or sun on `surface`.
     pub fn cull(&mut self, surface: &ExposedSurface) {
         let falls = self.key.falls;
         let counts =
@@ -109,7 +115,7 @@ impl CastOrder {
         self.blockers.retain(|_| blockers.next() == Some(&true));
     }
 
-    /// Casts.
+    /// Casts the rays and returns the exposure of each vertex.
     pub fn cast(&self, surface: &ExposedSurface) -> Exposure {
         let [rain, sun] = self.key.falls;
         surface.cast(&self.blockers, rain, sun)

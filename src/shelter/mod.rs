@@ -1,4 +1,4 @@
-//! What stands around props and keeps rain and sun off them.
+//! Computes how much rain and sun reaches each prop, by casting rays against the meshes around it.
 //!
 //! ```text
 //! RainShelter, Coating --survey--> ShelterScene (places, one tree of triangles a mesh)
@@ -6,7 +6,7 @@
 //! film, rain, sun -----------------------+--cast--> task --advance--> StainFields::exposure
 //! ```
 //!
-//! All of it happens only while there is rain or sun.
+//! Nothing is surveyed or cast while there is neither rain nor sun.
 
 mod cast;
 mod film;

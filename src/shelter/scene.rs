@@ -1,4 +1,4 @@
-//! Which meshes shelter props, and their triangles.
+//! Finds the meshes that shelter props, and sorts their triangles for casting.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use bevy::{
     transform::components::GlobalTransform,
 };
 
-use super::CastOrder;
+use super::key::CastOrder;
 use crate::{
     api::{
         coating::Coating,
@@ -35,26 +35,27 @@ use crate::{
         exposure::{Blocker, TriangleTree},
     },
 };
-/// What shelters props, as it stood when there was last rain or sun.
+
+/// Meshes that shelter props, as they were when there was last rain or sun.
 #[derive(Resource, Default)]
 pub(crate) struct ShelterScene {
-    /// By entity and root.
+    /// Meshes in their places, sorted by entity and root.
     pieces: Vec<Piece>,
-    /// Triangles of the pieces' meshes.
+    /// Triangles of each mesh asset.
     meshes: HashMap<AssetId<Mesh>, ShelterMesh>,
-    /// Counts changes of the pieces.
+    /// Number of changes of the pieces.
     revision: u64,
-    /// Counts meshes that were read.
+    /// Number of meshes that were read.
     version: u64,
-    /// Whether all meshes are known.
+    /// Whether the triangles of all meshes are known.
     ready: bool,
 }
 
-/// One mesh in its place.
+/// Mesh in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     entity: Entity,
-    /// The only coating whose films it shelters; all of them if `None`.
+    /// Entity of the only coating whose films it shelters; `None` if it shelters all films.
     root: Option<Entity>,
     mesh: AssetId<Mesh>,
     /// Version of the mesh; 0 while it is being loaded.
@@ -62,19 +63,23 @@ struct Piece {
     place: Affine3A,
 }
 
+/// Triangles of one mesh asset, and when they were read.
 struct ShelterMesh {
     version: u64,
     tree: Tree,
 }
 
+/// Triangles of a mesh, sorted for casting.
 enum Tree {
+    /// Being sorted in the background.
     Growing(Task<TriangleTree>),
+    /// Sorted.
     Grown(Arc<TriangleTree>),
-    /// It cannot be read.
+    /// Not readable.
     Missing,
 }
 
-/// Looks at what shelters props, while there is rain or sun.
+/// Finds the meshes that shelter props, while there is rain or sun.
 pub(crate) fn survey(
     weather: Res<CoatingWeather>,
     mut scene: ResMut<ShelterScene>,
@@ -97,7 +102,7 @@ pub(crate) fn survey(
     let mut found = Vec::with_capacity(scene.pieces.len());
     let piece_of = |entity: Entity, root: Option<Entity>| {
         let (mesh, transform, slot) = meshes.get(entity).ok()?;
-        // A coated mesh shelters as it was before it was coated.
+        // A coated mesh shelters with its own shape, not with the film's.
         let mesh = slot.map_or(&mesh.0, |slot| &slot.original).id();
         Some((slot.map(|slot| slot.film), Piece { entity, root, mesh, version: 0, place: transform.affine() }))
     };
@@ -107,13 +112,14 @@ pub(crate) fn survey(
     }
     for (root, _) in coatings.iter().filter(|(_, coating)| coating.shelter == Shelter::Scene) {
         let own: Vec<_> = below(root).filter_map(|entity| piece_of(entity, Some(root))).collect();
-        // A film knows its own surface; there must be another.
+        // The cast itself covers a film's own surface, so the coating's meshes count only if there is more than one
+        // film.
         if own.iter().any(|(film, _)| film.is_none() || *film != own[0].0) && own.len() > 1 {
             found.extend(own.into_iter().map(|(_, piece)| piece));
         }
     }
     found.sort_unstable_by_key(|piece| (piece.entity, piece.root));
-    // Those for all come first.
+    // A piece that shelters all films sorts before a piece of the same entity that shelters only its own.
     found.dedup_by(|later, first| later.entity == first.entity && (first.root.is_none() || first.root == later.root));
     scene.follow(found, &assets, server.as_deref());
 }
@@ -150,13 +156,13 @@ impl ShelterScene {
         }
     }
 
-    /// Counts what may have changed.
+    /// Returns the number of changes so far.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// What may shelter a film that is coated by `root`, made of `slots` and stands at `transform`; `None` while meshes
-    /// are being loaded or read.
+    /// Returns the order for casting rays on the film at `transform` that is coated by `root` and made of the meshes of
+    /// `slots`. `None` while meshes are being loaded or sorted.
     pub fn order(
         &self,
         environment: &Environment,
@@ -182,8 +188,8 @@ impl ShelterScene {
     }
 }
 
-/// Begins to sort the triangles of a piece's mesh; `None` while it is being loaded. A mesh that nobody loads is missing
-/// until it is added.
+/// Begins to sort the triangles of a piece's mesh in the background; `None` while the mesh is being loaded. A mesh that
+/// is neither loaded nor loading is missing until its asset is added.
 fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>) -> Option<Tree> {
     let Some(mesh) = assets.get(piece.mesh) else {
         let state = server.map(|server| server.load_state(piece.mesh));
@@ -204,6 +210,7 @@ fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>
     }
 }
 
+/// Warns that a piece does not shelter.
 fn tell(piece: &Piece, fault: &CoatingFault) {
     warn!("entity {} shelters nothing from rain and sun: {fault}", piece.entity);
 }

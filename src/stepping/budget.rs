@@ -1,9 +1,9 @@
-//! Whose turn it is, where a frame has no time for the steps of all films.
+//! Shares the budget of a frame between the films and postpones the films whose steps do not fit.
 //!
-//! Near and large films come first, but none waits for ever: whoever waits gains credit, the more the larger it is on
-//! screen, and the frame's time goes to those with most credit. A film that waits keeps the steps it owes and takes them
-//! together later. Its state depends on the steps alone, so it is the same as if it had never waited (but for weather
-//! that changed meanwhile).
+//! Near and large films come first, but no film is postponed for ever: in each frame a film gains credit, the more the
+//! larger it is in view, and the frame's time goes to the films with the most credit. A postponed film keeps the steps
+//! that it owes and takes them together later. Its state depends on the steps alone, so it ends up as if it had not
+//! been postponed (except for weather that changed meanwhile).
 
 use std::time::Duration;
 
@@ -25,37 +25,40 @@ use crate::{
     deform::FilmConstraints,
     film::Geometry,
 };
-/// Share of a film that fills the view, of one so far away that it can hardly be seen: none waits more than this many
-/// times longer than another.
+
+/// Smallest credit that a film gains in a frame; a film that fills the view gains 1. So no film is postponed more than
+/// 16 times longer than another.
 const LEAST_SHARE: f32 = 1.0 / 16.0;
-/// What a step costs even if nothing moves, in vertices that move.
+/// Cost of a step in which nothing moves, in moving vertices.
 const FIXED_COST: usize = 200;
-/// Share of the last frame in what a vertex is taken to cost.
+/// Weight of the last frame in the running mean of the cost of a vertex.
 const NEWEST: f64 = 0.2;
 
-/// Steps that a film may owe because it waited: so many frames' worth.
+/// Most steps that a postponed film may owe, in frames' worth of [`CoatingBudget::max_steps`].
 pub(super) const BACKLOG_FRAMES: u32 = 4;
 
-/// What steps have cost lately.
+/// Measured cost of steps, and the buffer of [`plan_budget`].
 #[derive(Resource, Debug, Default)]
 pub(crate) struct StepCost {
-    /// Seconds a moving vertex and step; 0 before there is any.
+    /// Running mean of the seconds for one moving vertex in one step; 0 before the first measurement.
     per_vertex: f64,
-    /// Vertices times steps of this frame.
+    /// Moving vertices of all steps in this frame.
     work: u64,
-    /// Turns of this frame, kept for its room.
-    order: Vec<Turn>,
+    /// Films with steps to take in this frame; kept as a buffer.
+    candidates: Vec<Candidate>,
 }
 
-/// A film that has steps to take.
+/// Film with steps to take in this frame.
 #[derive(Debug)]
-struct Turn {
+struct Candidate {
     entity: Entity,
+    /// Priority: the film with the most credit steps first.
     credit: f32,
+    /// Expected time of its steps.
     seconds: f64,
 }
 
-/// Middle and radius of a film at rest.
+/// Returns the centre and radius of a sphere around a film at rest, in the film's space.
 pub(crate) fn bounds(geometry: &Geometry) -> (Vec3, f32) {
     let points = &geometry.rest_positions;
     let (min, max) =
@@ -63,23 +66,28 @@ pub(crate) fn bounds(geometry: &Geometry) -> (Vec3, f32) {
     if points.is_empty() { (Vec3::ZERO, 0.0) } else { ((min + max) * 0.5, (max - min).length() * 0.5) }
 }
 
-/// The films that have a turn, and the cameras that look at them.
-pub(super) type Waiting =
+/// Query of the films that share the budget.
+pub(super) type BudgetFilms =
     QueryState<(Entity, &'static mut FilmPace, &'static FilmConstraints, &'static GlobalTransform)>;
-/// The cameras.
+/// Query of the cameras that look at the films.
 pub(super) type Cameras = QueryState<(&'static Camera, &'static GlobalTransform), With<Camera>>;
 
-/// Lets films wait whose steps do not fit into the frame; one always goes. Gives the largest number of steps that
-/// one of the others has planned.
-pub(super) fn choose(world: &mut World, films: &mut Waiting, cameras: &mut Cameras, budget: CoatingBudget) -> u64 {
+/// Postpones the films whose steps do not fit into the frame, but never all of them. Returns the largest number of
+/// steps that a film which is not postponed has planned.
+pub(super) fn plan_budget(
+    world: &mut World,
+    films: &mut BudgetFilms,
+    cameras: &mut Cameras,
+    budget: CoatingBudget,
+) -> u64 {
     let mut cost = std::mem::take(&mut *world.resource_mut::<StepCost>());
     let most = u64::from(budget.max_steps.max(1));
     let per_vertex = budget.fixed_cost.map_or(cost.per_vertex, |cost| cost.as_secs_f64() / 1000.0);
     let (mut rounds, mut whole) = (0, 0.0);
-    cost.order.clear();
+    cost.candidates.clear();
     for (entity, mut pace, constraints, _) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
-        pace.waits = false;
+        pace.postponed = false;
         pace.cost = 0;
         if pace.planned == 0 {
             pace.credit = 0.0;
@@ -89,66 +97,66 @@ pub(super) fn choose(world: &mut World, films: &mut Waiting, cameras: &mut Camer
         pace.cost = (FIXED_COST + constraints.awake_count()) as u64;
         let seconds = (pace.cost * pace.planned.min(most)) as f64 * per_vertex;
         whole += seconds;
-        cost.order.push(Turn { entity, credit: 0.0, seconds });
+        cost.candidates.push(Candidate { entity, credit: 0.0, seconds });
     }
     if whole > budget.max_time.as_secs_f64() {
-        rounds = take_turns(world, films, cameras, budget.max_time, &mut cost.order);
+        rounds = share_budget(world, films, cameras, budget.max_time, &mut cost.candidates);
     }
     *world.resource_mut::<StepCost>() = cost;
     rounds
 }
 
-/// Sorts films by credit, and lets those wait that no longer fit.
-fn take_turns(
+/// Sorts the films by credit and postpones the films that no longer fit into `time`. Returns as [`plan_budget`] does.
+fn share_budget(
     world: &mut World,
-    films: &mut Waiting,
+    films: &mut BudgetFilms,
     cameras: &mut Cameras,
     time: Duration,
-    order: &mut [Turn],
+    candidates: &mut [Candidate],
 ) -> u64 {
     let eyes: Vec<Vec3> =
         cameras.iter(world).filter(|(camera, _)| camera.is_active).map(|(_, at)| at.translation()).collect();
-    for turn in order.iter_mut() {
-        let Ok((_, mut pace, _, transform)) = films.get_mut(world, turn.entity) else { continue };
+    for candidate in candidates.iter_mut() {
+        let Ok((_, mut pace, _, transform)) = films.get_mut(world, candidate.entity) else { continue };
         let pace = pace.bypass_change_detection();
         pace.credit += share_of_view(pace, transform, &eyes);
-        turn.credit = pace.credit;
+        candidate.credit = pace.credit;
     }
-    // Entities last, so that the order is one of the scene and not of chance.
-    order.sort_unstable_by(|a, b| b.credit.total_cmp(&a.credit).then(a.entity.cmp(&b.entity)));
+    // Ties are decided by entity, so that the order is always the same.
+    candidates.sort_unstable_by(|a, b| b.credit.total_cmp(&a.credit).then(a.entity.cmp(&b.entity)));
     let (mut left, mut rounds) = (time.as_secs_f64(), 0);
-    for (i, turn) in order.iter().enumerate() {
-        let Ok((_, mut pace, ..)) = films.get_mut(world, turn.entity) else { continue };
+    for (i, candidate) in candidates.iter().enumerate() {
+        let Ok((_, mut pace, ..)) = films.get_mut(world, candidate.entity) else { continue };
         let pace = pace.bypass_change_detection();
-        if i > 0 && turn.seconds > left {
-            pace.waits = true;
+        if i > 0 && candidate.seconds > left {
+            pace.postponed = true;
             continue;
         }
-        left -= turn.seconds;
+        left -= candidate.seconds;
         pace.credit = 0.0;
         rounds = rounds.max(pace.planned);
     }
     rounds
 }
 
-/// How large a film is to the nearest camera: its radius over its distance, from [`LEAST_SHARE`] to 1. Without
-/// cameras all are alike.
+/// Returns the size of a film in the view of the nearest camera: its radius over its distance, from [`LEAST_SHARE`] to
+/// 1. Without cameras it is 1 for every film.
 fn share_of_view(pace: &FilmPace, transform: &GlobalTransform, eyes: &[Vec3]) -> f32 {
     let (_, rotation, translation) = transform.to_scale_rotation_translation();
     let middle = translation + rotation * pace.bounds.0;
     let nearest = eyes.iter().map(|eye| eye.distance(middle)).reduce(f32::min);
     let share = nearest.map_or(1.0, |distance| pace.bounds.1 / distance);
-    // NaN, of a film without extent at a camera, is the least.
+    // A film without extent at a camera gives NaN, which counts as the least.
     if share > LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
 }
 
 impl StepCost {
-    /// Counts steps that are taken: their vertices.
+    /// Adds the moving vertices of steps that are taken.
     pub fn count(&mut self, vertices: u64) {
         self.work += vertices;
     }
 
-    /// Learns from a frame whose steps took `elapsed`.
+    /// Updates the running mean with a frame whose steps took `elapsed`.
     pub fn learn(&mut self, elapsed: Duration) {
         if self.work > 0 {
             let now = elapsed.as_secs_f64() / self.work as f64;

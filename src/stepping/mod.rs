@@ -1,4 +1,4 @@
-//! Time becomes steps: how many each film takes in a frame, and the stages of a step as systems.
+//! Turns time into steps: plans how many steps each film takes in a frame, and runs the stages of a step as systems.
 //!
 //! ```text
 //! CoatingClock, CoatingBudget --runner, budget--> runs of CoatingStep --systems--> stages --report--> messages

@@ -1,4 +1,4 @@
-//! The driver: turns time into steps of the films and runs the step schedule within the budget.
+//! Turns elapsed time into steps of the films and runs the step schedule within the budget.
 
 use web_time::Instant;
 
@@ -12,7 +12,7 @@ use bevy::{
     transform::components::GlobalTransform,
 };
 
-use super::budget::{BACKLOG_FRAMES, Cameras, StepCost, Waiting, choose};
+use super::budget::{BACKLOG_FRAMES, BudgetFilms, Cameras, StepCost, plan_budget};
 use crate::{
     api::{
         budget::CoatingBudget,
@@ -27,7 +27,8 @@ use crate::{
     sim::FilmClock,
     stain::StainFields,
 };
-/// What decides the steps of a film.
+
+/// Query of everything that decides how many steps a film takes.
 type Films = QueryState<(
     &'static mut FilmPace,
     &'static FilmClock,
@@ -38,21 +39,21 @@ type Films = QueryState<(
 
 /// Plans the steps of this frame for every film and takes them.
 ///
-/// Films for which the frame has no time [wait](super::budget) for theirs. Steps of slower films are spread evenly between those of the fastest, so that their pace keeps its ratio
-/// wherever the budget cuts the frame short.
+/// Films for which the frame has no time are [postponed](super::budget). The steps of slower films are spread evenly
+/// between the steps of the fastest, so that the speeds of films keep their ratio wherever the budget ends the frame.
 pub(crate) fn advance(
     world: &mut World,
     films: &mut Films,
     waiting: &mut QueryState<(), With<AwaitingFilm>>,
     refused: &mut QueryState<(), With<FilmRefused>>,
     building: &mut QueryState<&FilmSlot>,
-    waiting_films: &mut Waiting,
+    budget_films: &mut BudgetFilms,
     cameras: &mut Cameras,
 ) {
     let begin = Instant::now();
     let budget = *world.resource::<CoatingBudget>();
     plan(world, films);
-    let rounds = choose(world, waiting_films, cameras, budget);
+    let rounds = plan_budget(world, budget_films, cameras, budget);
     let mut taken = 0;
     while taken < rounds && taken < u64::from(budget.max_steps.max(1)) {
         if taken > 0 && budget.fixed_cost.is_none() && begin.elapsed() >= budget.max_time {
@@ -61,7 +62,7 @@ pub(crate) fn advance(
         let mut work = 0;
         for (mut pace, ..) in films.iter_mut(world) {
             let pace = pace.bypass_change_detection();
-            pace.due = !pace.waits && is_due(taken, pace.planned, rounds);
+            pace.due = !pace.postponed && is_due(taken, pace.planned, rounds);
             pace.taken += u64::from(pace.due);
             work += if pace.due { pace.cost } else { 0 };
         }
@@ -73,19 +74,21 @@ pub(crate) fn advance(
         world.resource_mut::<StepCost>().learn(begin.elapsed());
     }
     let mut status = settle(world, films, budget);
-    status.waiting = waiting.iter(world).count() + building.iter(world).filter(|slot| slot.shown.is_none()).count();
+    status.waiting =
+        waiting.iter(world).count() + building.iter(world).filter(|slot| slot.display_mesh.is_none()).count();
     status.refused = refused.iter(world).count();
     let mut current = world.resource_mut::<CoatingStatus>();
     current.set_if_neq(status);
 }
 
-/// Whether a film with `planned` of `rounds` steps takes one in round `round`: as evenly as whole steps can be.
+/// Returns whether a film that has planned `planned` steps in `rounds` rounds takes one in round `round` (0 is the
+/// first). The steps are spread as evenly as whole numbers allow.
 fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
     let until = |round: u64| u128::from(round) * u128::from(planned) / u128::from(rounds);
     until(round + 1) > until(round)
 }
 
-/// Plans each film's steps.
+/// Plans the steps of each film in this frame from the clock and the requested steps.
 fn plan(world: &mut World, films: &mut Films) {
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
     let gravity = *world.resource::<CoatingGravity>();
@@ -99,7 +102,7 @@ fn plan(world: &mut World, films: &mut Films) {
     for (mut pace, clock, transform, mut shelter, mut stains) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.environment = weather.environment(gravity, transform);
-        // What reaches a film is no stain, so nothing is to be shown anew.
+        // A new exposure changes no stain yet, so display need not notice it.
         shelter.bypass_change_detection().finish(stains.bypass_change_detection());
         pace.held = shelter.holds_back(&pace.environment);
         pace.requested = pace.requested.saturating_add(requested);
@@ -107,12 +110,12 @@ fn plan(world: &mut World, films: &mut Films) {
         if !pace.paused && owed > 0.0 {
             pace.owed += owed;
         }
-        // Saturates for infinite speeds.
+        // The conversion saturates for infinite speeds.
         let mut planned = (pace.owed as u64).saturating_add(pace.requested);
         if let Some(target) = target {
             let left = clock.step_at(target).saturating_sub(clock.steps);
             if planned >= left {
-                // Nothing is owed beyond the target, so that a later one does not begin with a leap.
+                // Steps beyond the target are not owed, so that ageing does not leap when the target is raised later.
                 planned = left;
                 pace.owed = pace.owed.min(left as f64);
                 pace.requested = pace.requested.min(left);
@@ -124,7 +127,8 @@ fn plan(world: &mut World, films: &mut Films) {
     }
 }
 
-/// Books the steps that were taken, requested ones first, and drops what is owed beyond them.
+/// Subtracts the steps that were taken from the requested and the owed ones, drops the owed steps that did not fit, and
+/// returns the counts for [`CoatingStatus`].
 fn settle(world: &mut World, films: &mut Films, budget: CoatingBudget) -> CoatingStatus {
     let backlog = f64::from(budget.max_steps.max(1).saturating_mul(BACKLOG_FRAMES));
     let mut status = CoatingStatus { youngest: f64::INFINITY, ..CoatingStatus::default() };
@@ -134,17 +138,17 @@ fn settle(world: &mut World, films: &mut Films, budget: CoatingBudget) -> Coatin
         let requested = pace.taken.min(pace.requested);
         pace.requested -= requested;
         pace.owed -= (pace.taken - requested) as f64;
-        if pace.waits {
-            // Its turn comes; what it owes by then it takes together, but no more than a few frames' worth.
+        if pace.postponed {
+            // A postponed film takes the steps that it owes together later, but no more than a few frames' worth.
             pace.owed = if pace.owed > backlog { backlog } else { pace.owed };
         } else if !pace.held {
-            // What was planned but not taken is dropped; an infinite speed leaves nothing to carry.
+            // Steps that were planned but not taken are dropped; an infinite speed leaves no fraction to carry over.
             pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
         }
         status.films += 1;
         status.casting += usize::from(pace.held);
         status.stepped += usize::from(pace.taken > 0);
-        status.postponed += usize::from(pace.waits);
+        status.postponed += usize::from(pace.postponed);
         status.youngest = status.youngest.min(clock.age());
         status.oldest = status.oldest.max(clock.age());
     }

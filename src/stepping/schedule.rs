@@ -1,4 +1,4 @@
-//! The step schedule: one run is one step of every film that is due.
+//! Builds the step schedule, one run of which is one step of every film that is due.
 
 use bevy::{
     app::App,
@@ -8,9 +8,10 @@ use bevy::{
 use super::{report, systems};
 use crate::api::system_sets::{CoatingStep, CoatingSystems};
 
+/// Adds the schedule [`CoatingStep`] with its stages and systems.
 pub(crate) fn add_step_schedule(app: &mut App) {
     let mut schedule = Schedule::new(CoatingStep);
-    // The stages follow each other and are parallel inside: a second thread would only be waited for.
+    // The stages run one after the other, each in parallel inside, so threads for whole systems would gain nothing.
     schedule.set_executor(SingleThreadedExecutor::new());
     app.add_schedule(schedule);
     app.configure_sets(

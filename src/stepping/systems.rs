@@ -1,5 +1,5 @@
-//! The stages as systems: each runs one function of [`stage`] on the due films, in parallel, and marks as changed
-//! only what did change.
+//! Runs the stages as systems: each calls one function of [`stage`] for the due films, in parallel, and marks only the
+//! components as changed that did change.
 
 use bevy::ecs::{
     change_detection::{DetectChangesMut, Mut},
@@ -15,7 +15,8 @@ use crate::{
     sim::{FilmClock, Stage, StepScratch, stage},
     stain::{Environment, StainFields},
 };
-/// Counts the step and forgets the last one's changes.
+
+/// Runs [`stage::begin`]: counts the step and clears the changes of the last one.
 pub(super) fn begin(
     mut films: Query<(&FilmPace, &mut FilmClock, &mut FilmChanges)>,
     mut timings: ResMut<CoatingTimings>,
@@ -29,7 +30,7 @@ pub(super) fn begin(
     });
 }
 
-/// [`stage::forces`].
+/// Runs [`stage::forces`]: ages adhesion, contraction and binding.
 pub(super) fn age_forces(
     mut films: Query<(&FilmPace, &FilmMesh, &mut FilmForces, &StainFields, &FilmClock)>,
     mut timings: ResMut<CoatingTimings>,
@@ -43,7 +44,7 @@ pub(super) fn age_forces(
     });
 }
 
-/// [`stage::separate`].
+/// Runs [`stage::separate`]: separates vertices from the metal.
 pub(super) fn separate(
     mut films: Query<(&FilmPace, &FilmMesh, &mut FilmForces, &FilmClock, &mut FilmChanges)>,
     mut timings: ResMut<CoatingTimings>,
@@ -59,7 +60,7 @@ pub(super) fn separate(
     });
 }
 
-/// What the stages that edit the film work on.
+/// Query of the stages that edit the film.
 type Edited<'w, 's> = Query<
     'w,
     's,
@@ -72,7 +73,7 @@ type Edited<'w, 's> = Query<
     ),
 >;
 
-/// [`stage::tear`].
+/// Runs [`stage::tear`]: tears edges.
 pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
     edit(films, timings, |pace, mesh, forces, changes, scratch| {
         stage::tear(mesh, forces, changes, &pace.settings, pace.environment.gravity, &mut scratch.fracture);
@@ -80,7 +81,7 @@ pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
     });
 }
 
-/// [`stage::strip`].
+/// Runs [`stage::strip`]: removes faces and small pieces.
 pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
     edit(films, timings, |pace, mesh, forces, changes, scratch| {
         stage::strip(mesh, forces, changes, &pace.settings, &mut scratch.fracture);
@@ -88,7 +89,7 @@ pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
     });
 }
 
-/// Runs a stage that edits the due films; it answers whether it did.
+/// Runs a stage that edits the due films. `stage` returns whether it changed the film.
 fn edit(
     mut films: Edited,
     mut timings: ResMut<CoatingTimings>,
@@ -112,7 +113,7 @@ fn edit(
     });
 }
 
-/// [`stage::link`].
+/// Runs [`stage::link`]: updates the constraints.
 pub(super) fn link(
     mut films: Query<(&FilmPace, &FilmMesh, &mut FilmConstraints, &FilmChanges)>,
     mut timings: ResMut<CoatingTimings>,
@@ -126,7 +127,7 @@ pub(super) fn link(
     });
 }
 
-/// [`stage::bend`].
+/// Runs [`stage::bend`]: bends the separated film.
 pub(super) fn bend(
     mut films: Query<(
         &FilmPace,
@@ -163,33 +164,33 @@ pub(super) fn bend(
     });
 }
 
-/// [`stage::rust`].
+/// Runs [`stage::rust`]: rusts and stains.
 pub(super) fn rust(films: Stained, timings: ResMut<CoatingTimings>) {
     stain(films, timings, stage::rust);
 }
 
-/// [`stage::dust`].
+/// Runs [`stage::dust`]: lets dust settle.
 pub(super) fn dust(films: Stained, timings: ResMut<CoatingTimings>) {
     stain(films, timings, |mesh, stains, clock, _, settings, environment| {
         stage::dust(mesh, stains, clock, settings, environment);
     });
 }
 
-/// [`stage::moisture`].
+/// Runs [`stage::moisture`]: wets and dries.
 pub(super) fn moisture(films: Stained, timings: ResMut<CoatingTimings>) {
     stain(films, timings, |mesh, stains, clock, _, settings, environment| {
         stage::moisture(mesh, stains, clock, settings, environment);
     });
 }
 
-/// What the stages that stain the film work on.
+/// Query of the stages that stain the film.
 type Stained<'w, 's> = Query<
     'w,
     's,
     (&'static FilmPace, &'static FilmMesh, &'static mut StainFields, &'static FilmClock, &'static FilmChanges),
 >;
 
-/// Runs a stage that stains on the due films. They count as changed when something can be seen of it.
+/// Runs a stage that stains the due films. Their stains count as changed when the change can be seen.
 fn stain(
     mut films: Stained,
     mut timings: ResMut<CoatingTimings>,
@@ -207,6 +208,7 @@ fn stain(
     });
 }
 
+/// Marks `part` as changed if `changed` says so.
 fn changed_if<T>(part: &mut Mut<T>, changed: impl FnOnce(&T) -> bool) {
     if changed(part) {
         part.set_changed();

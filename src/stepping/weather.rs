@@ -1,4 +1,4 @@
-//! Weather out of range.
+//! Warns of weather that is out of range.
 
 use bevy::{
     ecs::{
@@ -10,7 +10,7 @@ use bevy::{
 
 use crate::api::weather::CoatingWeather;
 
-/// Warns of weather out of range, once until it changes.
+/// Logs a warning when values of the weather are out of range, once until other values are.
 pub(crate) fn check_weather(weather: Res<CoatingWeather>, mut told: Local<Vec<&'static str>>) {
     if !weather.is_changed() {
         return;

@@ -1,30 +1,63 @@
-//! Stains on paint: run-off, dust and water, on its front and on the backs of its flakes.
+//! Shades stained paint, front and back: run-off rust, dust and water.
 
 use bevy_math::{Vec3, ops};
 
 use super::{
-    FilmShading, StainPattern, StainSample, SurfaceShading,
     noise::{Grain, mix, smoothstep},
+    pattern::StainPattern,
+    sample::StainSample,
+    settings::FilmShading,
+    surface::SurfaceShading,
 };
 
-/// Softness of the edges of streaks.
+/// Softness of the edges of streaks, as a share of the noise's range.
 const STREAK_EDGE: f32 = 0.26;
-/// Linear colour below which a channel is black.
+/// Linear colour that a channel counts as at least, where rust is mixed by ratio.
 const DARKEST: f32 = 1e-3;
-/// Reflectance of rust: it scatters.
+/// Reflectance of rust, which scatters light.
 const RUST_REFLECTANCE: f32 = 0.3;
-/// Reflectance of a film of water, 2 %.
+/// Reflectance of a film of water: 2 % at normal incidence.
 const WATER_REFLECTANCE: f32 = 0.36;
 
 impl FilmShading {
-    /// Paint of the look `base` with the stains of `s` on it. Where there are none, `base` itself.
+    /// Returns the shading of paint at a place with the stains `s`. `base` is the shading of the clean paint, and is
+    /// returned unchanged where there are no stains.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::shading::{FilmShading, StainPattern, StainSample, SurfaceShading};
+    /// use bevy_math::Vec3;
+    ///
+    /// let paint =
+    ///     SurfaceShading { base_color: Vec3::ONE, metallic: 0.0, roughness: 0.4, reflectance: 0.5, height: 0.0 };
+    /// let (shading, pattern) = (FilmShading::default(), StainPattern::new(7, Vec3::NEG_Y));
+    /// assert_eq!(shading.film(paint, &StainSample::default(), &pattern), paint);
+    ///
+    /// let wet = StainSample { moisture: 1.0, ..StainSample::default() };
+    /// assert!(shading.film(paint, &wet, &pattern).roughness < paint.roughness);
+    /// ```
     pub fn film(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
         let stained = self.run_off(base, s, p, 1.0);
         let dusty = self.dusty(stained, s, p);
         self.wet(dusty, s, p, s.rust.max(s.dust))
     }
 
-    /// The back of a flake of the look `base`, its primer: rust creeps in from the edges, where the metal lies bare.
+    /// Returns the shading of the back of a flake at a place with the stains `s`. `base` is the shading of the clean
+    /// primer.
+    ///
+    /// Rust creeps over the back as far as the metal under the place has corroded
+    /// ([`StainShading::creep`](super::StainShading::creep)); run-off, dust and water lie over it as on the front.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::shading::{FilmShading, StainPattern, StainSample};
+    /// use bevy_math::Vec3;
+    ///
+    /// let shading = FilmShading::default();
+    /// let pattern = StainPattern::new(7, Vec3::NEG_Y).with_footprint(1.0);
+    /// let rusty = StainSample { corrosion: 0.8, ..StainSample::default() };
+    /// let primer = shading.primer.surface();
+    /// let back = shading.back(primer, &rusty, &pattern);
+    /// assert!(back.base_color.x / back.base_color.z > primer.base_color.x / primer.base_color.z, "redder");
+    /// ```
     pub fn back(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
         let mut shading = base;
         if s.corrosion > 0.0 {
@@ -36,8 +69,9 @@ impl FilmShading {
         self.film(shading, s, p)
     }
 
-    /// Run-off (VC 6.1): its cover follows 0.85 (1 - exp(-3 layers)), broken up into streaks.
-    /// `hold` is how much of it the surface holds: 1 paint.
+    /// Adds run-off rust (VC 6.1). Its mean cover is 0.85 (1 - exp(-3 layers)), broken up into streaks.
+    ///
+    /// `hold` is the share of the run-off that stays visible on the surface: 1 on paint, less on rusty metal.
     pub(super) fn run_off(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern, hold: f32) -> SurfaceShading {
         if s.rust <= 0.0 {
             return base;
@@ -56,7 +90,7 @@ impl FilmShading {
         self.rusted(base, color, cover)
     }
 
-    /// Dust and soot (VC 6.2): darkens, and lowers the reflectance.
+    /// Adds dust and soot (VC 6.2), which darken the surface and lower its reflectance.
     pub(super) fn dusty(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
         if s.dust <= 0.0 {
             return base;
@@ -75,7 +109,8 @@ impl FilmShading {
         }
     }
 
-    /// Water: darker and glossier. `porous` is how much there is to soak it up, 0 or more.
+    /// Adds water, which makes the surface darker and glossier. `porous` is the amount of rust or dust that soaks it
+    /// up: 0 or more, full effect at 1.
     pub(super) fn wet(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern, porous: f32) -> SurfaceShading {
         if s.moisture <= 0.0 {
             return base;
@@ -94,9 +129,11 @@ impl FilmShading {
         }
     }
 
-    /// `cover` of the surface hidden under rust of `color`. Where rust is darker it stains as a filter does, channel by
-    /// channel, so that thin rust on light paint is orange, not pink; where it is lighter it lies on the paint, or rust
-    /// on blue would be green.
+    /// Hides the share `cover` (0 to 1) of the surface under rust of `color`.
+    ///
+    /// In each channel in which the rust is darker than the surface, it works as a filter (the colours are mixed by
+    /// their ratio): thin rust on light paint is then orange, not pink. Where it is lighter the colours are mixed
+    /// evenly, as rust on blue paint would otherwise be green.
     pub(super) fn rusted(&self, base: SurfaceShading, color: Vec3, cover: f32) -> SurfaceShading {
         let stained = |base: f32, rust: f32| {
             if rust >= base {
@@ -114,18 +151,21 @@ impl FilmShading {
         }
     }
 
+    /// Returns the pattern of streaks in which rust runs off.
     pub(super) fn streaks(&self, s: &StainSample, p: &StainPattern) -> Grain {
         let width = self.stains.streak_width;
         let octaves = [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)];
         p.streak(s.rest, s.normal, octaves, self.stains.streak_stretch)
     }
 
+    /// Returns the pattern of hairlines within the streaks.
     fn hairs(&self, s: &StainSample, p: &StainPattern) -> Grain {
         let width = self.stains.streak_width;
         let octaves = [(width * 0.6, 0.4), (width * 0.25, 0.4), (width * 0.1, 0.3)];
         p.streak(s.rest, s.normal, octaves, 2.5 * self.stains.streak_stretch)
     }
 
+    /// Returns the octaves of the blotches in run-off and in creeping rust.
     fn blotches(&self) -> [(f32, f32); 3] {
         let size = self.metal.patch_size;
         [(size * 0.35, 0.5), (size * 0.12, 0.35), (size * 0.04, 0.25)]

@@ -1,19 +1,22 @@
-//! Bare metal: bright steel, its first dark rust, then layers of orange scale with pits and grit, and what runs over it.
+//! Shades bare metal: bright steel, first dark rust, then layers of orange scale with pits and grit, and stains on top.
 
 use bevy_math::Vec3;
 
 use super::{
-    FilmShading, StainPattern, StainSample, SurfaceShading,
     noise::{Grain, mix, of_level, smoothstep},
+    pattern::StainPattern,
+    sample::StainSample,
+    settings::FilmShading,
+    surface::SurfaceShading,
 };
 
-/// Layers that thick rust consists of.
+/// Number of layers in thick rust.
 const LEVELS: f32 = 4.0;
 
-/// How much of the run-off can be seen on rust of its own kind; the rest sinks in.
+/// Share of the run-off that stays visible on fully rusted metal; the rest cannot be told from the rust under it.
 const SUNK: f32 = 0.4;
 
-/// Patterns of metal at one place, each for another scale of its rust.
+/// Patterns of the metal at one place, each with grains of another size.
 struct Patterns {
     patches: Grain,
     scales: Grain,
@@ -22,7 +25,18 @@ struct Patterns {
 }
 
 impl FilmShading {
-    /// The metal with the stains of `s`: steel, rusted as far as its corrosion says, run-off and dust on top.
+    /// Returns the shading of the metal at a place with the stains `s`: steel that has rusted by `s.corrosion`, under
+    /// run-off, dust and water.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::shading::{FilmShading, StainPattern, StainSample};
+    /// use bevy_math::Vec3;
+    ///
+    /// let (shading, pattern) = (FilmShading::default(), StainPattern::new(7, Vec3::NEG_Y));
+    /// let bright = shading.metal(&StainSample::default(), &pattern);
+    /// let rusted = shading.metal(&StainSample { corrosion: 1.0, ..StainSample::default() }, &pattern);
+    /// assert!(rusted.metallic < bright.metallic && rusted.roughness > bright.roughness);
+    /// ```
     pub fn metal(&self, s: &StainSample, p: &StainPattern) -> SurfaceShading {
         let own = self.corroded(s, p);
         let stained = self.run_off(own, s, p, mix(1.0, SUNK, s.corrosion));
@@ -30,6 +44,7 @@ impl FilmShading {
         self.wet(dusty, s, p, s.corrosion.max(s.dust))
     }
 
+    /// Returns bright steel with fine scratches from brushing.
     fn steel(&self, rest: Vec3, p: &StainPattern) -> SurfaceShading {
         let scratches = p.brushed(rest, [(0.0011, 0.4), (0.0005, 0.4), (0.00025, 0.3)], 90.0);
         SurfaceShading {
@@ -41,6 +56,7 @@ impl FilmShading {
         }
     }
 
+    /// Returns steel that has rusted by `s.corrosion`.
     fn corroded(&self, s: &StainSample, p: &StainPattern) -> SurfaceShading {
         let steel = self.steel(s.rest, p);
         if s.corrosion <= 0.0 {
@@ -48,14 +64,14 @@ impl FilmShading {
         }
         let patterns = self.patterns(s, p);
         let Patterns { patches, scales, grit, streak } = &patterns;
-        // Some patches are ahead of others; at both ends all are alike.
+        // Some patches rust earlier than others; bright and fully rusted metal are even.
         let spread = s.corrosion * (1.0 - s.corrosion);
         let age = (s.corrosion + spread * patches.around(0.0, 1.1)).clamp(0.0, 1.0);
-        // First spots that grow together, then layers over them.
+        // Spots of first rust grow together, then layers cover them.
         let first = grit.cover((age * 3.2).min(1.0), 0.2);
         let layered = scales.cover(smoothstep(0.22, 0.95, age), 0.14);
         let step = Step::of(scales.value * LEVELS);
-        // Edges of a layer lie in the shadow of the next.
+        // The foot of a layer's edge lies in the shadow of the layer.
         let shade = 1.0 - 0.45 * step.edge * scales.kept;
         let level = mix(0.5, step.tint, scales.kept);
         let dark = self.metal.first_rust * grit.around(1.25, 0.7);
@@ -76,6 +92,7 @@ impl FilmShading {
         }
     }
 
+    /// Evaluates the patterns of the metal at a place.
     fn patterns(&self, s: &StainSample, p: &StainPattern) -> Patterns {
         let (size, rest) = (self.metal.patch_size, s.rest);
         Patterns {
@@ -87,17 +104,18 @@ impl FilmShading {
     }
 }
 
-/// A place on layers that lie on each other with steep edges.
+/// Place in a stack of layers with steep edges.
 struct Step {
-    /// Layers beneath, smooth across the edge.
+    /// Number of layers beneath, which rises smoothly across an edge.
     height: f32,
-    /// Random shade of the layer, 0 to 1.
+    /// Random tint of the layer, 0 to 1.
     tint: f32,
-    /// 1 at the foot of an edge, 0 away from it.
+    /// Closeness to the foot of an edge: 1 at the foot, 0 away from it.
     edge: f32,
 }
 
 impl Step {
+    /// Returns the place after `layers` layers; the fraction is the way to the next edge.
     fn of(layers: f32) -> Self {
         let level = layers.floor();
         let within = layers - level;

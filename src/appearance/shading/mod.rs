@@ -1,91 +1,47 @@
-//! How stained surfaces look: from fields to colour, roughness, metalness and relief. The same on the CPU, for baked
-//! models, as in the shader (`src/display/material/shading.wgsl`), which a test holds together.
+//! Computes how stained surfaces are shaded: from stain fields to colour, roughness, metalness and relief.
 //!
-//! | surface | function | what it shows |
+//! | surface | function | layers, from below |
 //! |---|---|---|
-//! | paint | [`FilmShading::film`] | the prop's own look under run-off, dust and water |
-//! | backs of flakes | [`FilmShading::back`] | primer into which rust creeps, and the same stains |
+//! | paint | [`FilmShading::film`] | the prop's own material, run-off rust, dust, water |
+//! | backs of flakes | [`FilmShading::back`] | primer, rust that creeps in from the metal, and the same stains |
 //! | bare metal | [`FilmShading::metal`] | steel, first rust, layered rust, and the same stains |
 //!
-//! Fields give how much there is at a vertex; noise in metres gives the detail below the mesh's resolution. What
-//! covers a place is the field held against the noise, so that stains break up instead of fading like fog, while
-//! their mean over some area stays that of the field.
+//! The fields say how much of each stain there is at a vertex. Noise, whose grains have sizes in metres, adds detail
+//! that is finer than the mesh: a stain covers the places where the noise is above a threshold that falls as the amount
+//! rises. So stains break up into streaks and patches instead of fading evenly, and the mean over an area is still the
+//! amount of the field there.
+//!
+//! The functions here run on the CPU, for baked models and vertex colours. The shader of feature `render`
+//! (`src/display/material/shading.wgsl`) does the same on the GPU, and a test compares the two.
+//!
+//! ```
+//! use bevy_coating::appearance::shading::{FilmShading, StainPattern, StainSample, SurfaceShading};
+//! use bevy_math::Vec3;
+//!
+//! let paint =
+//!     SurfaceShading { base_color: Vec3::splat(0.8), metallic: 0.0, roughness: 0.3, reflectance: 0.5, height: 0.0 };
+//! let shading = FilmShading::default();
+//! // A wide footprint averages the detail.
+//! let pattern = StainPattern::new(7, Vec3::NEG_Y).with_footprint(1.0);
+//! let rusty = StainSample { rust: 0.5, normal: Vec3::Z, ..StainSample::default() };
+//! let stained = shading.film(paint, &rusty, &pattern);
+//! assert!(stained.base_color.x > stained.base_color.z, "rust is orange");
+//! assert!(stained.roughness > paint.roughness, "and rough");
+//! ```
 
 mod film;
 mod metal;
 mod noise;
+mod part;
 mod pattern;
+mod sample;
 mod settings;
+mod surface;
 #[cfg(test)]
 mod tests;
 
-#[cfg(feature = "plugin")]
-use bevy::reflect::prelude::ReflectDefault;
-use bevy_math::Vec3;
-
+pub use part::StainPart;
 pub use pattern::StainPattern;
+pub use sample::StainSample;
 pub use settings::{FilmShading, MetalShading, PrimerShading, StainShading};
-
-/// What a place of a surface looks like: the inputs of a physically based material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceShading {
-    /// Linear base colour.
-    pub base_color: Vec3,
-    /// 0 dielectric to 1 metal.
-    pub metallic: f32,
-    /// Perceptual roughness, 0 to 1.
-    pub roughness: f32,
-    /// Reflectance at normal incidence as Bevy's `StandardMaterial` has it: 0.5 is 4 %.
-    pub reflectance: f32,
-    /// Relief in metres above the surface, for normals.
-    pub height: f32,
-}
-
-/// What is known of a place's stains; interpolated from [`MeshPart::stains`](super::MeshPart::stains) and
-/// [`MeshPart::rest`](super::MeshPart::rest).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StainSample {
-    /// Layers of rust.
-    pub rust: f32,
-    /// Dust, 0 to 1.
-    pub dust: f32,
-    /// Moisture, 0 to 1.
-    pub moisture: f32,
-    /// How far the metal there has rusted, 0 to 1.
-    pub corrosion: f32,
-    /// The place at rest, in the film's space.
-    pub rest: Vec3,
-    /// Unit normal of the surface there, at rest; zero if it is not known.
-    pub normal: Vec3,
-}
-
-impl StainSample {
-    /// The sample of one vertex of a shown part: its stains, its place at rest and its normal there.
-    pub fn new([rust, dust, moisture, corrosion]: [f32; 4], rest: Vec3, normal: Vec3) -> Self {
-        Self { rust, dust, moisture, corrosion, rest, normal }
-    }
-}
-
-/// What kind of surface is stained.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
-pub enum StainPart {
-    /// The front of the paint.
-    #[default]
-    Film,
-    /// The back of the paint.
-    Back,
-    /// Bare metal.
-    Metal,
-}
-
-impl FilmShading {
-    /// The look of `part`: [`film`](Self::film), [`back`](Self::back) or [`metal`](Self::metal), which needs no `base`.
-    pub fn part(&self, part: StainPart, base: SurfaceShading, s: &StainSample, p: &StainPattern) -> SurfaceShading {
-        match part {
-            StainPart::Film => self.film(base, s, p),
-            StainPart::Back => self.back(base, s, p),
-            StainPart::Metal => self.metal(s, p),
-        }
-    }
-}
+pub use surface::SurfaceShading;

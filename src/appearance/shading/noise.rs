@@ -1,50 +1,53 @@
-//! Detail below the mesh's resolution: seeded gradient noise, filtered to what can still be seen.
+//! Evaluates seeded gradient noise, from which patterns finer than the mesh are made. Detail that is too fine to be
+//! seen is averaged.
 //!
-//! Integers are hashed and everything else is add, multiply and `exp`, so that the shader draws the same patterns
-//! (`src/display/material/noise.wgsl`).
+//! Besides a hash of integers only addition, multiplication, division, square root and `exp` are used, so that the
+//! shader draws the same patterns (`src/display/material/noise.wgsl`).
 
 use bevy_math::{Vec3, ops};
 
 /// Standard deviation of [`noise`].
 const DEVIATION: f32 = 0.1887;
-/// Slope of the logistic curve that comes closest to the normal distribution.
+/// Slope of the logistic curve that is closest to the cumulative normal distribution.
 const LOGISTIC: f32 = 1.702;
 
-/// One layer of a pattern: size of its grains in metres, and weight.
+/// One octave of a pattern: size of its grains in metres, and weight.
 pub(super) type Octave = (f32, f32);
 
-/// A pattern at one place.
+/// Value of a pattern at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Grain {
-    /// Spread evenly over 0 to 1, as far as the pattern can be seen; 0.5 where it cannot.
+    /// Value, evenly distributed over 0 to 1 where the whole pattern can be seen; 0.5 where none of it can.
     pub value: f32,
-    /// Share of the pattern that can be seen: 1 all of it, 0 nothing, because grains are smaller than the footprint.
+    /// Share of the pattern that can be seen: 1 for all of it, 0 where all grains are smaller than the footprint.
     pub kept: f32,
 }
 
 impl Grain {
-    /// Share of the surface that something of amount 0 to 1 covers here: the highest grains first. All grains
-    /// together are covered by that amount, and where they are too small to be seen so is each place.
+    /// Returns the share of this place, 0 to 1, that a stain of `amount` (0 to 1) covers. The grains with the highest
+    /// values are covered first, with edges of the given softness. The mean over the pattern is `amount`, and so is
+    /// every place where grains are too small to be seen.
     pub fn cover(self, amount: f32, softness: f32) -> f32 {
-        // At both ends edges are sharp, so that nothing is covered by none, and all by all.
+        // Near amounts of 0 and 1 the edges are sharp, so that 0 covers nothing and 1 covers everything.
         let softness = softness.min(amount).min(1.0 - amount) + 1e-4;
         let threshold = 1.0 - self.value;
         let sharp = smoothstep(threshold - softness, threshold + softness, amount);
         mix(amount, sharp, self.kept)
     }
 
-    /// The pattern about `middle`, `swing` up and down.
+    /// Returns the value scaled to the range from `middle - swing` to `middle + swing`.
     pub fn around(self, middle: f32, swing: f32) -> f32 {
         middle + swing * (2.0 * self.value - 1.0)
     }
 }
 
-/// A pattern of three octaves. `stretch` gives the place at a grain size of one metre times the size.
+/// Sums three octaves of noise. `place` returns the point at which the noise is evaluated for grains of a given size in
+/// metres. Octaves with grains smaller than `footprint` are left out.
 pub(super) fn grain(octaves: [Octave; 3], footprint: f32, place: impl Fn(f32) -> Vec3) -> Grain {
     let (mut sum, mut kept, mut all) = (0.0, 0.0, 0.0);
     for (i, (size, weight)) in octaves.into_iter().enumerate() {
         let seen = weight * (1.0 - smoothstep(0.35, 1.0, footprint / size));
-        // Octaves that shared their grid would line up.
+        // Octaves on a common grid would line up.
         sum += seen * noise(place(size) + Vec3::splat(19.37 * i as f32));
         kept += seen * seen;
         all += weight * weight;
@@ -53,7 +56,7 @@ pub(super) fn grain(octaves: [Octave; 3], footprint: f32, place: impl Fn(f32) ->
     Grain { value: 1.0 / (1.0 + ops::exp(-LOGISTIC * deviations)), kept: kept / all }
 }
 
-/// Gradient noise: smooth, mean 0, mostly within -0.4 to 0.4, grains of about one unit.
+/// Returns gradient noise at `p`: smooth, with mean 0, mostly within -0.4 to 0.4, and grains of about one unit.
 pub(super) fn noise(p: Vec3) -> f32 {
     let cell = p.floor();
     let f = p - cell;
@@ -67,13 +70,13 @@ pub(super) fn noise(p: Vec3) -> f32 {
     mix(mix(along_x(0, 0), along_x(1, 0), t.y), mix(along_x(0, 1), along_x(1, 1), t.y), t.z)
 }
 
-/// Gradient at a corner of the grid: each component evenly over -1 to 1.
+/// Returns the gradient at a corner of the grid: each component evenly distributed over -1 to 1.
 fn gradient(x: u32, y: u32, z: u32) -> Vec3 {
     let h = hash(x, y, z);
     Vec3::new((h & 1023) as f32, ((h >> 10) & 1023) as f32, ((h >> 20) & 1023) as f32) / 511.5 - 1.0
 }
 
-/// A random number for three (murmur3's finaliser over a mix of primes).
+/// Hashes three numbers to one (murmur3's finaliser over a mix of primes).
 pub(super) fn hash(x: u32, y: u32, z: u32) -> u32 {
     let mut h = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77) ^ z.wrapping_mul(0xc2b2_ae3d);
     h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
@@ -81,15 +84,17 @@ pub(super) fn hash(x: u32, y: u32, z: u32) -> u32 {
     h ^ (h >> 16)
 }
 
-/// A random number in 0 to 1 for a level, a whole number.
+/// Returns a random number from 0 to 1 for `level`, a whole number.
 pub(super) fn of_level(level: f32) -> f32 {
     (hash(level as i32 as u32, 7, 13) & 1023) as f32 / 1023.0
 }
 
+/// Returns the linear mix of `a` (at `t` 0) and `b` (at `t` 1).
 pub(super) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
+/// Returns a smooth step from 0 at `low` to 1 at `high`, as in WGSL.
 pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

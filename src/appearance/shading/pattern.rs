@@ -1,4 +1,4 @@
-//! Where on its patterns a surface lies.
+//! Places a prop's stain patterns: their direction, their offset and their finest detail.
 
 #[cfg(feature = "plugin")]
 use bevy::reflect::prelude::ReflectDefault;
@@ -8,7 +8,18 @@ use bevy_math::{Vec3, ops};
 
 use super::noise::{Grain, Octave, grain, hash, mix, smoothstep};
 
-/// How a prop's patterns lie: along what they run and which part of them it shows.
+/// Placement of a prop's stain patterns: the direction of streaks, an offset, and the size of the finest detail.
+///
+/// The default has no streaks, no offset and full detail.
+///
+/// ```
+/// use bevy_coating::appearance::shading::StainPattern;
+/// use bevy_math::Vec3;
+///
+/// let pattern = StainPattern::new(7, Vec3::NEG_Y * 3.0);
+/// assert_eq!(pattern.streaks, Vec3::NEG_Y, "only the direction counts");
+/// assert_ne!(pattern.offset, StainPattern::new(8, Vec3::NEG_Y).offset, "each seed has patterns of its own");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -17,37 +28,49 @@ use super::noise::{Grain, Octave, grain, hash, mix, smoothstep};
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct StainPattern {
-    /// Direction in which stains ran, in the film's space: unit, or zero where nothing has run.
+    /// Direction in which stains have run, in the film's space: of unit length, or zero if nothing has run yet.
     pub streaks: Vec3,
-    /// Metres by which the patterns are shifted, so that props do not look alike.
+    /// Shift of the patterns, in metres, so that props with different seeds differ.
     pub offset: Vec3,
-    /// Size in metres of what is shown at once: a pixel or texel. Detail below it is averaged. 0, the default, for
-    /// a point.
+    /// Size of the pixel, texel or vertex that is shaded, in metres: detail finer than it is averaged. 0 or more; 0,
+    /// the default, keeps all detail.
     pub footprint: f32,
 }
 
 impl StainPattern {
-    /// The patterns of a prop with `seed`, on which stains ran along `streaks`: of any length.
+    /// Returns the patterns of a prop with `seed` on which stains have run along `streaks`, a vector of any length or
+    /// zero. The offset is at most 4 metres along each axis.
     pub fn new(seed: u64, streaks: Vec3) -> Self {
         let (low, high) = (seed as u32, (seed >> 32) as u32);
-        // Small enough for fine grains to keep their precision.
+        // Small, so that fine grains keep their precision.
         let shift = |k| (hash(low, high, k) >> 8) as f32 / 16_777_216.0 * 8.0 - 4.0;
         Self { streaks: streaks.normalize_or_zero(), offset: Vec3::new(shift(1), shift(2), shift(3)), footprint: 0.0 }
     }
 
-    /// Averages detail below `footprint` metres.
+    /// Sets the [`footprint`](Self::footprint): detail finer than this many metres is averaged.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::shading::{FilmShading, StainPattern, StainSample};
+    /// use bevy_math::Vec3;
+    ///
+    /// let shading = FilmShading::default();
+    /// let pattern = StainPattern::new(7, Vec3::NEG_Y).with_footprint(0.5);
+    /// let at = |rest| shading.metal(&StainSample { corrosion: 0.5, rest, ..StainSample::default() }, &pattern);
+    /// assert_eq!(at(Vec3::ZERO), at(Vec3::X), "half a metre of rust looks the same everywhere");
+    /// ```
     pub fn with_footprint(self, footprint: f32) -> Self {
         Self { footprint, ..self }
     }
 
-    /// A pattern of round grains at `rest`.
+    /// Returns a pattern of round grains at `rest`.
     pub(super) fn grain(&self, rest: Vec3, octaves: [Octave; 3]) -> Grain {
         let p = rest + self.offset;
         grain(octaves, self.footprint, |size| p / size)
     }
 
-    /// A pattern of grains that are `stretch` times as long down the surface at `rest` as they are wide. `normal` is
-    /// that of the surface; zero if it is not known, then grains are long on upright surfaces only.
+    /// Returns a pattern of grains at `rest` that are `stretch` times as long down the surface as they are wide.
+    ///
+    /// `normal` is the normal of the surface. If it is zero (not known) grains are long on upright surfaces only.
     pub(super) fn streak(&self, rest: Vec3, normal: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
         let p = rest + self.offset;
         let down = self.streaks;
@@ -58,8 +81,8 @@ impl StainPattern {
             let across = p - along;
             return grain(octaves, self.footprint, |size| across / size + along / (size * stretch));
         }
-        // What is across must not change down the surface. So it is measured level along the surface, on one of eight
-        // upright planes, and blended where a surface faces between two of them.
+        // The coordinate across the streaks must not change down the surface. So it is measured along a level line, on
+        // one of eight upright planes, and blended where a surface faces between two of them.
         let (x, y) = level_axes(down);
         let turn = ops::atan2(outwards.dot(y), outwards.dot(x)) / FRAC_PI_4;
         let facing = |plane: f32| {
@@ -81,7 +104,7 @@ impl StainPattern {
         }
     }
 
-    /// A pattern of level lines `stretch` times as long as they are wide, as brushing leaves them.
+    /// Returns a pattern of level lines `stretch` times as long as they are wide, like the marks of brushing.
     pub(super) fn brushed(&self, rest: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
         let p = rest + self.offset;
         let up = if self.streaks == Vec3::ZERO { Vec3::Y } else { self.streaks };
@@ -91,7 +114,7 @@ impl StainPattern {
     }
 }
 
-/// Two axes at right angles to `down` and each other.
+/// Returns two unit vectors at right angles to `down` and each other.
 fn level_axes(down: Vec3) -> (Vec3, Vec3) {
     let aside = if down.x.abs() < 0.8 { Vec3::X } else { Vec3::Z };
     let x = (aside - down * down.dot(aside)).normalize();

@@ -1,13 +1,25 @@
-//! Colours and strengths of all that shows where paint ages.
+//! Defines the colours and strengths with which aged paint is shaded.
 
 #[cfg(feature = "plugin")]
 use bevy::reflect::prelude::ReflectDefault;
 use bevy_math::Vec3;
 
-use super::SurfaceShading;
+use super::surface::SurfaceShading;
 
-/// How a film is shaded: its stains, the metal under it and the primer on its back. Colours are linear, 0 to 1; sizes
-/// in metres. How much rust, dust and water there is follows from the [settings](crate::settings) instead.
+/// Shading of a film: colours and strengths of its stains, of the metal under it and of the primer on its back.
+///
+/// Colours are linear, 0 to 1; sizes are in metres. The amounts of rust, dust and water do not depend on the shading:
+/// they are simulated, steered by the [settings](crate::settings).
+///
+/// ```
+/// use bevy_coating::appearance::shading::{FilmShading, StainShading};
+///
+/// let sooty = FilmShading {
+///     stains: StainShading { dust_strength: 0.95, ..StainShading::default() },
+///     ..FilmShading::default()
+/// };
+/// assert_eq!(sooty.metal, FilmShading::default().metal);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -16,15 +28,30 @@ use super::SurfaceShading;
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct FilmShading {
-    /// Rust that has run off, dust and water, on paint and metal.
+    /// Colours and strengths of rust that has run off, of dust and of water, on paint and metal.
     pub stains: StainShading,
-    /// The metal under the paint.
+    /// Shading of the metal under the paint.
     pub metal: MetalShading,
-    /// The back of the paint, seen where it curls.
+    /// Shading of the back of the paint, which is seen where the paint curls.
     pub primer: PrimerShading,
 }
 
 /// Colours and strengths of rust that has run off, of dust and of water.
+///
+/// Colours are linear, 0 to 1; sizes are in metres.
+///
+/// ```
+/// use bevy_coating::appearance::shading::StainShading;
+/// use bevy_math::Vec3;
+///
+/// // Verdigris on copper instead of rust on steel.
+/// let verdigris = StainShading {
+///     rust_thin: Vec3::new(0.15, 0.45, 0.33),
+///     rust_thick: Vec3::new(0.05, 0.25, 0.18),
+///     ..StainShading::default()
+/// };
+/// assert_eq!(verdigris.rust_strength, 0.85);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -33,32 +60,35 @@ pub struct FilmShading {
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct StainShading {
-    /// Colour of thin run-off, the ends of streaks: orange.
+    /// Colour of thin run-off, at the ends of streaks. Default: orange, (0.33, 0.105, 0.024).
     pub rust_thin: Vec3,
-    /// Colour of thick run-off, close to its source: dark brown.
+    /// Colour of thick run-off, close to its source. Default: dark brown, (0.06, 0.02, 0.009).
     pub rust_thick: Vec3,
-    /// How much of the paint a full coat of rust hides: 0 to 1, default 0.85 (VC 6.1).
+    /// Share of the surface that a thick coat of run-off hides: 0 to 1, default 0.85 (VC 6.1).
     pub rust_strength: f32,
-    /// Roughness of rust: 0.089 to 1, default 0.9.
+    /// Perceptual roughness of rust: 0.089 to 1, default 0.9.
     pub rust_roughness: f32,
-    /// Width of the streaks in run-off: above 0, default 4 mm. The widest are two and a half times that, the finest
-    /// less than half.
+    /// Typical width of the streaks in run-off, in metres: above 0, default 0.004. The widest are 2.5 times as wide,
+    /// the finest less than half.
     pub streak_width: f32,
-    /// How many times as long as wide a streak is: 1 or more, default 22.
+    /// Length of a streak, as a multiple of its width: 1 or more, default 22.
     pub streak_stretch: f32,
-    /// Colour of dust and soot: black.
+    /// Colour of dust and soot. Default: almost black, (0.02, 0.018, 0.016).
     pub dust: Vec3,
-    /// How much of the surface the thickest dust hides: 0 to 1, default 0.75.
+    /// Share of the surface that the thickest dust hides: 0 to 1, default 0.75.
     pub dust_strength: f32,
-    /// How much of the reflectance dust takes (VC 6.2): 0 to 1, default 0.7.
+    /// Share of the reflectance that the thickest dust takes away: 0 to 1, default 0.7 (VC 6.2).
     pub dust_dulling: f32,
-    /// Size of the patches in which dust gathers: above 0, default 25 mm.
+    /// Size of the patches in which dust gathers, in metres: above 0, default 0.025. Patterns of water are scaled by
+    /// it, too.
     pub dust_size: f32,
-    /// How much darker wet paint is: 0 to 1, default 0.4. Rust and dust, which soak it up, darken half as much again.
+    /// Share of the light that clean wet paint loses: 0 to 1, default 0.4. Rust and dust soak up water and lose up to
+    /// half as much again.
     pub wet_darkening: f32,
-    /// Roughness of a wet surface: 0.089 to 1, default 0.14.
+    /// Perceptual roughness of a wet surface: 0.089 to 1, default 0.14.
     pub wet_roughness: f32,
-    /// How far rust creeps over the backs of flakes from where the metal under them rusts: 0 to 1, default 0.9.
+    /// Share of the backs of flakes that rust covers where the metal under them has rusted through: 0 to 1, default
+    /// 0.9.
     pub creep: f32,
 }
 
@@ -82,7 +112,17 @@ impl Default for StainShading {
     }
 }
 
-/// The metal under the paint: what it is made of, and what it rusts to.
+/// Shading of the metal under the paint, bright and rusted.
+///
+/// Colours are linear, 0 to 1; sizes are in metres.
+///
+/// ```
+/// use bevy_coating::appearance::shading::MetalShading;
+/// use bevy_math::Vec3;
+///
+/// let copper = MetalShading { steel: Vec3::new(0.93, 0.37, 0.24), ..MetalShading::default() };
+/// assert_eq!(copper.roughness, MetalShading::default().roughness);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -91,21 +131,20 @@ impl Default for StainShading {
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct MetalShading {
-    /// Colour of metal that has not rusted: bright steel, sRGB (0.67, 0.66, 0.65).
+    /// Colour of metal that has not rusted. Default: bright steel, sRGB (0.67, 0.66, 0.65).
     pub steel: Vec3,
-    /// How metallic it reflects where it has not rusted: 0 to 1, default 0.9. Bare metal looks dull without an
-    /// environment map.
+    /// Metalness where the metal has not rusted: 0 to 1, default 0.9. Bare metal looks dull without an environment map.
     pub metallic: f32,
-    /// Perceptual roughness where it has not rusted: 0.089 to 1, default 0.42.
+    /// Perceptual roughness where the metal has not rusted: 0.089 to 1, default 0.42.
     pub roughness: f32,
-    /// Colour of the first rust: almost black.
+    /// Colour of the first rust. Default: almost black, (0.034, 0.018, 0.011).
     pub first_rust: Vec3,
-    /// Colour of the layers that rust grows to: orange-brown, sRGB (0.532, 0.285, 0.138).
+    /// Mean colour of thick, layered rust. Default: orange-brown, sRGB (0.532, 0.285, 0.138).
     pub rust: Vec3,
-    /// Size of the patches in which metal rusts: above 0, default 35 mm. Scales, pits and grit come in fixed shares
-    /// of it.
+    /// Size of the patches in which metal rusts, in metres: above 0, default 0.035. Scales, pits and grit have fixed
+    /// shares of it.
     pub patch_size: f32,
-    /// Height of thick layers of rust over the bare metal: 0 or more, default 0.5 mm.
+    /// Height of thick layers of rust over the bare metal, in metres: 0 or more, default 0.0005.
     pub relief: f32,
 }
 
@@ -126,17 +165,37 @@ impl Default for MetalShading {
 #[cfg(feature = "plugin")]
 impl MetalShading {
     /// Sets the colour of metal that has not rusted.
+    ///
+    /// ```
+    /// use bevy::color::Color;
+    /// use bevy_coating::appearance::shading::MetalShading;
+    ///
+    /// let brass = MetalShading::default()
+    ///     .with_steel(Color::srgb(0.78, 0.63, 0.32))
+    ///     .with_rust(Color::srgb_u8(70, 110, 90));
+    /// assert!(brass.steel.x > brass.steel.z, "brass is yellow");
+    /// ```
     pub fn with_steel(self, color: impl Into<bevy::color::Color>) -> Self {
         Self { steel: linear(color.into()), ..self }
     }
 
-    /// Sets the colour of the layers that rust grows to.
+    /// Sets the mean colour of thick, layered rust.
     pub fn with_rust(self, color: impl Into<bevy::color::Color>) -> Self {
         Self { rust: linear(color.into()), ..self }
     }
 }
 
-/// The back of the paint, without stains.
+/// Shading of the back of the paint, without stains.
+///
+/// With feature `plugin` a Bevy colour converts into the default primer of that colour.
+///
+/// ```
+/// use bevy_coating::appearance::shading::PrimerShading;
+/// use bevy_math::Vec3;
+///
+/// let red_lead = PrimerShading { color: Vec3::new(0.35, 0.06, 0.03), ..PrimerShading::default() };
+/// assert_eq!(red_lead.surface().base_color, red_lead.color);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "plugin",
@@ -145,11 +204,11 @@ impl MetalShading {
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct PrimerShading {
-    /// Colour: a warm grey, sRGB (0.55, 0.52, 0.47).
+    /// Colour, linear. Default: a warm grey, sRGB (0.55, 0.52, 0.47).
     pub color: Vec3,
     /// Perceptual roughness: 0.089 to 1, default 0.85.
     pub roughness: f32,
-    /// Reflectance at normal incidence as Bevy's `StandardMaterial` has it: 0 to 1, default 0.3.
+    /// Reflectance at normal incidence in the scale of Bevy's `StandardMaterial`: 0 to 1, default 0.3.
     pub reflectance: f32,
 }
 
@@ -161,14 +220,14 @@ impl Default for PrimerShading {
 
 #[cfg(feature = "plugin")]
 impl<C: Into<bevy::color::Color>> From<C> for PrimerShading {
-    /// The default primer in another colour.
+    /// Returns the default primer in another colour.
     fn from(color: C) -> Self {
         Self { color: linear(color.into()), ..Self::default() }
     }
 }
 
 impl PrimerShading {
-    /// Returns the inputs of a physically based material for it.
+    /// Returns the material inputs of the clean primer: not metallic and without relief.
     pub fn surface(&self) -> SurfaceShading {
         SurfaceShading {
             base_color: self.color,
@@ -180,6 +239,7 @@ impl PrimerShading {
     }
 }
 
+/// Returns the linear components of a colour.
 #[cfg(feature = "plugin")]
 fn linear(color: bevy::color::Color) -> Vec3 {
     use bevy::color::ColorToComponents;

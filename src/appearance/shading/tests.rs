@@ -1,4 +1,6 @@
-//! What stains look like, place by place and on average.
+//! Checks the shading of stains, place by place and on average.
+
+use bevy_math::Vec3;
 
 use super::*;
 

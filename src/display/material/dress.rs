@@ -1,8 +1,8 @@
-//! A coated prop wears its own material with stains on it, and gets its own back.
+//! Replaces the materials of coated props by stained ones, and puts the props' own materials back.
 //!
-//! The type of an entity's material is changed here and nowhere else: in `PostUpdate`, before Bevy looks for changed
-//! materials, so that in the frame in which an entity has another material it also gets another pipeline. Later in the
-//! frame would be too late, and on the GPU a pipeline would meet the bindings of another one (compare
+//! This is the only place that changes the type of an entity's material. It runs in `PostUpdate`, before Bevy collects
+//! changed materials, so that an entity gets the pipeline of its new material in the same frame. If it ran later in the
+//! frame, an entity would be drawn with the pipeline of one material and the bindings of another (compare
 //! bevyengine/bevy#21410, which was about off-screen entities).
 
 use bevy::{
@@ -18,20 +18,43 @@ use bevy::{
     reflect::prelude::*,
 };
 
-use super::{StainExtension, StainView};
+use super::{
+    extension::{StainExtension, StainedMaterial},
+    view::StainView,
+};
 use crate::{
     api::{links::FilmSlot, stain_display::StainDisplay},
     appearance::shading::StainPart,
-    display::{FilmDisplay, StainedMaterial},
+    display::film_display::FilmDisplay,
 };
-/// The prop's own material, on a mesh entity that wears it with stains while it is coated. It comes back when the
-/// coating goes. Changes of the asset show, and so does another handle put here or inserted as a
-/// `MeshMaterial3d<StandardMaterial>`.
+
+/// Handle of the prop's own material, on a mesh entity that has a [`StainedMaterial`] while it is coated.
+///
+/// When the coating is removed the entity gets this material back. The stained material follows changes of the asset.
+/// To give a coated prop another material, change the handle here or insert a `MeshMaterial3d<StandardMaterial>`.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::{CoatedMaterial, prelude::*};
+///
+/// /// Gives all coated meshes another paint under the stains.
+/// fn repaint(mut coated: Query<&mut CoatedMaterial>, mut materials: ResMut<Assets<StandardMaterial>>) {
+///     let green = materials.add(Color::srgb(0.1, 0.3, 0.15));
+///     for mut material in &mut coated {
+///         material.0 = green.clone();
+///     }
+/// }
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default())).init_asset::<StandardMaterial>();
+/// # app.add_systems(Update, repaint);
+/// # app.update();
+/// ```
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct CoatedMaterial(pub Handle<StandardMaterial>);
 
-/// Replaces the materials of props whose film shows its stains by a material. One that is not loaded yet is waited for.
+/// Replaces the materials of props whose stains are drawn by a material. Materials that are still loading are replaced
+/// later.
 pub(in crate::display) fn dress_props(
     mut commands: Commands,
     slots: Query<(Entity, &FilmSlot, &MeshMaterial3d<StandardMaterial>, Option<&MeshMaterial3d<StainedMaterial>>)>,
@@ -40,7 +63,7 @@ pub(in crate::display) fn dress_props(
     mut stained: ResMut<Assets<StainedMaterial>>,
 ) {
     for (entity, slot, MeshMaterial3d(handle), worn) in &slots {
-        let Some(display) = films.get(slot.film).ok().filter(|_| slot.shown.is_some()) else { continue };
+        let Some(display) = films.get(slot.film).ok().filter(|_| slot.display_mesh.is_some()) else { continue };
         if display.paint.display != StainDisplay::Material {
             continue;
         }
@@ -63,7 +86,7 @@ pub(in crate::display) fn dress_props(
     }
 }
 
-/// Gives the materials back of props that have no film any more, or one that shows its stains otherwise.
+/// Puts back the materials of props that have no film any more, or whose stains are drawn in another way.
 pub(in crate::display) fn undress_props(
     mut commands: Commands,
     props: Query<
@@ -73,7 +96,7 @@ pub(in crate::display) fn undress_props(
     films: Query<&FilmDisplay>,
 ) {
     for (entity, slot, CoatedMaterial(own), other) in &props {
-        let display = slot.filter(|slot| slot.shown.is_some()).and_then(|slot| films.get(slot.film).ok());
+        let display = slot.filter(|slot| slot.display_mesh.is_some()).and_then(|slot| films.get(slot.film).ok());
         if display.is_some_and(|display| display.paint.display == StainDisplay::Material) {
             continue;
         }

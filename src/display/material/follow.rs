@@ -1,4 +1,4 @@
-//! Worn materials follow what they were made of: the prop's own material, and the coating's look.
+//! Brings stained materials up to date with the prop's own material and the coating's shading.
 
 use bevy::{
     asset::{AssetEvent, Assets},
@@ -12,12 +12,10 @@ use bevy::{
     platform::collections::HashSet,
 };
 
-use crate::{
-    api::links::FilmSource,
-    appearance::shading::StainPart,
-    display::{CoatedMaterial, FilmDisplay, StainedMaterial},
-};
-/// Copies materials that were loaded anew, edited or swapped.
+use super::{dress::CoatedMaterial, extension::StainedMaterial};
+use crate::{api::links::FilmSource, appearance::shading::StainPart, display::film_display::FilmDisplay};
+
+/// Copies the prop's own materials that were loaded, edited or swapped to the stained ones.
 pub(in crate::display) fn follow_standard_materials(
     mut events: MessageReader<AssetEvent<StandardMaterial>>,
     props: Query<(Ref<CoatedMaterial>, &MeshMaterial3d<StainedMaterial>)>,
@@ -44,7 +42,7 @@ pub(in crate::display) fn follow_standard_materials(
     }
 }
 
-/// Hands changed looks and directions of streaks to all materials of a film.
+/// Hands changed shadings and directions of streaks to all materials of a film.
 pub(in crate::display) fn follow_paint(
     mut films: Query<(&FilmSource, &mut FilmDisplay)>,
     props: Query<&MeshMaterial3d<StainedMaterial>>,

@@ -1,7 +1,9 @@
-// Gradient noise with its slope, and patterns made of it: the twin of `src/appearance/shading/noise.rs`.
+// Gradient noise with its slope, and patterns made of it. The same functions in Rust:
+// `src/appearance/shading/noise.rs`.
 #define_import_path bevy_coating::noise
 
-// Standard deviation of the noise, and the logistic curve that is closest to the normal distribution.
+// Standard deviation of the noise, and slope of the logistic curve that is closest to the cumulative normal
+// distribution.
 const DEVIATION: f32 = 0.1887;
 const LOGISTIC: f32 = 1.702;
 
@@ -11,15 +13,15 @@ struct Octaves {
     weights: vec3<f32>,
 }
 
-// A pattern at one place: spread evenly over 0 to 1, its slope in the metric that the place was given in, and the share
-// of it that can be seen.
+// Value of a pattern at one place, evenly distributed over 0 to 1; its slope per metre; and the share of the pattern
+// that can be seen (0 where all grains are smaller than the footprint).
 struct Grain {
     value: f32,
     slope: vec3<f32>,
     kept: f32,
 }
 
-// A random number of three that have been multiplied and mixed.
+// Hashes a number that was mixed of three.
 fn scramble(mixed: u32) -> u32 {
     var h = mixed;
     h = (h ^ (h >> 16u)) * 0x85ebca6bu;
@@ -27,26 +29,28 @@ fn scramble(mixed: u32) -> u32 {
     return h ^ (h >> 16u);
 }
 
-// What each of three numbers is multiplied by before they are mixed.
+// Factors of the three numbers that are mixed.
 const MIX: vec3<u32> = vec3<u32>(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
 
+// Random number from 0 to 1 for a whole number.
 fn of_level(level: f32) -> f32 {
     let p = vec3<u32>(u32(i32(level)), 7u, 13u) * MIX;
     return f32(scramble(p.x ^ p.y ^ p.z) & 1023u) / 1023.0;
 }
 
+// Gradient at a corner of the grid: each component evenly distributed over -1 to 1.
 fn gradient(mixed: u32) -> vec3<f32> {
     let h = scramble(mixed);
     return vec3<f32>(vec3<u32>(h & 1023u, (h >> 10u) & 1023u, (h >> 20u) & 1023u)) / 511.5 - 1.0;
 }
 
-// Slope and value. Only metal has relief: elsewhere the slope is left at zero.
+// Noise at `p`: its slope and, in `w`, its value. Only metal has relief, so for other parts the slope is zero.
 fn noise(p: vec3<f32>) -> vec4<f32> {
     let cell = floor(p);
     let f = p - cell;
     let g = f - 1.0;
     let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    // The next cell's product is this one's plus the factor.
+    // The product for the next cell is the product for this cell plus the factor.
     let a = vec3<u32>(vec3<i32>(cell)) * MIX;
     let b = a + MIX;
     let g000 = gradient(a.x ^ a.y ^ a.z);
@@ -85,17 +89,18 @@ fn noise(p: vec3<f32>) -> vec4<f32> {
 #endif
 }
 
-// A pattern at `p`, whose grains are `stretch` times as long along `direction`, a unit vector or zero.
+// Pattern at `p` with grains that are `stretch` times as long along `direction`, a unit vector or zero.
 fn grain(p: vec3<f32>, direction: vec3<f32>, stretch: f32, octaves: Octaves, footprint: f32) -> Grain {
     return sum_octaves(p, direction, 1.0, stretch, octaves, footprint);
 }
 
-// A pattern at `p`, whose grains are `stretch` times as long along all that is at right angles to `direction`.
+// Pattern at `p` with grains that are `stretch` times as long at right angles to `direction`.
 fn level_grain(p: vec3<f32>, direction: vec3<f32>, stretch: f32, octaves: Octaves, footprint: f32) -> Grain {
     return sum_octaves(p, direction, stretch, 1.0, octaves, footprint);
 }
 
-// Grains `across` as wide and `along` as long along `direction` as their size.
+// Sums three octaves. Grains are `along` times their size along `direction`, and `across` times their size at right
+// angles to it.
 fn sum_octaves(
     p: vec3<f32>,
     direction: vec3<f32>,
@@ -127,13 +132,14 @@ fn sum_octaves(
     return Grain(value, value * (1.0 - value) * scale * sum.xyz, kept / all);
 }
 
-// Share that something of amount 0 to 1 covers here.
+// Share of the place that a stain of `amount` (0 to 1) covers.
 fn cover(g: Grain, amount: f32, softness: f32) -> f32 {
     let soft = min(softness, min(amount, 1.0 - amount)) + 1e-4;
     let threshold = 1.0 - g.value;
     return mix(amount, smoothstep(threshold - soft, threshold + soft, amount), g.kept);
 }
 
+// Value of a pattern, scaled to the range from `middle - swing` to `middle + swing`.
 fn around(g: Grain, middle: f32, swing: f32) -> f32 {
     return middle + swing * (2.0 * g.value - 1.0);
 }

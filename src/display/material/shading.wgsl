@@ -1,10 +1,10 @@
-// From stains to what a surface looks like: the twin of `src/appearance/shading`, function by function. Numbers are explained
-// there.
+// Computes how stained surfaces are shaded. The same functions in Rust, where the numbers are explained:
+// `src/appearance/shading`.
 #define_import_path bevy_coating::shading
 
 #import bevy_coating::noise::{Grain, Octaves, around, cover, grain, level_grain, of_level}
 
-// `StainUniform` in uniform.rs.
+// Colours, strengths and patterns of a part. The same layout in Rust: `StainUniform` in uniform.rs.
 struct StainUniform {
     rust_thin: vec3<f32>,
     rust_strength: f32,
@@ -31,7 +31,8 @@ struct StainUniform {
     view: u32,
 }
 
-// What a place looks like. `reflectance` has a tint in Bevy's materials; `slope` is that of the height.
+// Material inputs at one place. Bevy's materials have a reflectance for each channel. `slope` is the slope of the
+// height.
 struct SurfaceShading {
     base_color: vec3<f32>,
     metallic: f32,
@@ -40,7 +41,7 @@ struct SurfaceShading {
     slope: vec3<f32>,
 }
 
-// The stains of a place, where it lies at rest, and the size of a pixel there in metres.
+// Stains of a place, its position and normal at rest, and the size of a pixel there in metres.
 struct StainSample {
     rust: f32,
     dust: f32,
@@ -59,16 +60,27 @@ const LEVELS: f32 = 4.0;
 const SUNK: f32 = 0.4;
 const FRAC_PI_4: f32 = 0.78539816;
 
+// Pattern of round grains.
 fn round_grain(u: StainUniform, s: StainSample, sizes: vec3<f32>, weights: vec3<f32>) -> Grain {
     return grain(s.rest + u.offset, vec3<f32>(0.0), 1.0, Octaves(sizes, weights), s.footprint);
 }
 
-// On the upright plane that faces along the level axes turned by `plane` eighths: what is level is across.
-fn facing(u: StainUniform, s: StainSample, x: vec3<f32>, y: vec3<f32>, plane: f32, octaves: Octaves, stretch: f32) -> Grain {
+// Streaks on one of eight upright planes: number `plane` faces along the level axes `x` and `y` turned by that many
+// eighths of a full turn. Their width is measured along the level line of the plane.
+fn facing(
+    u: StainUniform,
+    s: StainSample,
+    x: vec3<f32>,
+    y: vec3<f32>,
+    plane: f32,
+    octaves: Octaves,
+    stretch: f32,
+) -> Grain {
     let level = cross(u.streaks, x * cos(plane * FRAC_PI_4) + y * sin(plane * FRAC_PI_4));
     return level_grain(s.rest + u.offset, level, stretch, octaves, s.footprint);
 }
 
+// Pattern of grains that are `stretch` times as long down the surface as they are wide.
 fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32) -> Grain {
     let down = u.streaks;
     let outwards = s.normal - down * dot(down, s.normal);
@@ -82,7 +94,7 @@ fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32)
     let plane = floor(turn);
     let share = smoothstep(0.25, 0.75, turn - plane);
     var found: Grain;
-    // A loop, so that the noise is in the program once.
+    // A loop instead of two calls keeps the compiled shader small.
     for (var i = 0u; i < 2u; i++) {
         let weight = select(1.0 - share, share, i == 1u);
         if weight > 0.0 {
@@ -95,6 +107,7 @@ fn streak_grain(u: StainUniform, s: StainSample, octaves: Octaves, stretch: f32)
     return found;
 }
 
+// Surface of which the share `covered` is hidden under rust of `color`.
 fn rusted(u: StainUniform, base: SurfaceShading, color: vec3<f32>, covered: f32) -> SurfaceShading {
     var shading = base;
     let own = base.base_color;
@@ -106,6 +119,7 @@ fn rusted(u: StainUniform, base: SurfaceShading, color: vec3<f32>, covered: f32)
     return shading;
 }
 
+// Surface under run-off rust.
 fn run_off(
     u: StainUniform,
     base: SurfaceShading,
@@ -126,6 +140,7 @@ fn run_off(
     return rusted(u, base, color, covered);
 }
 
+// Surface under dust.
 fn dusty(u: StainUniform, base: SurfaceShading, s: StainSample, streak: Grain) -> SurfaceShading {
     let patches = round_grain(u, s, u.dust_size * vec3<f32>(3.0, 0.9, 0.12), vec3<f32>(0.5, 0.35, 0.2));
     let gathered = min(s.dust * around(patches, 1.0, 0.18) * around(streak, 1.0, 0.15), 1.0);
@@ -138,6 +153,7 @@ fn dusty(u: StainUniform, base: SurfaceShading, s: StainSample, streak: Grain) -
     return shading;
 }
 
+// Surface under water.
 fn wet(u: StainUniform, base: SurfaceShading, s: StainSample, porous: f32) -> SurfaceShading {
     let sizes = Octaves(u.dust_size * vec3<f32>(2.4, 0.8, 0.25), vec3<f32>(0.5, 0.4, 0.2));
     let sheets = streak_grain(u, s, sizes, 5.0);
@@ -152,6 +168,7 @@ fn wet(u: StainUniform, base: SurfaceShading, s: StainSample, porous: f32) -> Su
 }
 
 #ifdef STAIN_BACK
+// Back of a flake with rust that creeps in from the metal.
 fn creeping(u: StainUniform, base: SurfaceShading, s: StainSample, blotch: Grain) -> SurfaceShading {
     let covered = u.creep * cover(blotch, s.corrosion, 0.12);
     let thick = smoothstep(0.5, 1.0, s.corrosion * around(blotch, 0.9, 0.4));
@@ -160,6 +177,7 @@ fn creeping(u: StainUniform, base: SurfaceShading, s: StainSample, blotch: Grain
 #endif
 
 #ifdef STAIN_METAL
+// Bright steel with scratches.
 fn steel(u: StainUniform, s: StainSample) -> SurfaceShading {
     let lines = Octaves(vec3<f32>(0.0011, 0.0005, 0.00025), vec3<f32>(0.4, 0.4, 0.3));
     let up = select(u.streaks, vec3<f32>(0.0, 1.0, 0.0), all(u.streaks == vec3<f32>(0.0)));
@@ -173,6 +191,7 @@ fn steel(u: StainUniform, s: StainSample) -> SurfaceShading {
     return shading;
 }
 
+// Steel that has rusted.
 fn corroded(u: StainUniform, bright: SurfaceShading, s: StainSample, streak: Grain) -> SurfaceShading {
     let size = u.patch_size;
     let patches = round_grain(u, s, size * vec3<f32>(2.1, 1.0, 0.4), vec3<f32>(0.5, 0.42, 0.25));
@@ -182,7 +201,7 @@ fn corroded(u: StainUniform, bright: SurfaceShading, s: StainSample, streak: Gra
     let age = clamp(s.corrosion + spread * around(patches, 0.0, 1.1), 0.0, 1.0);
     let first = cover(grit, min(age * 3.2, 1.0), 0.2);
     let layered = cover(scales, smoothstep(0.22, 0.95, age), 0.14);
-    // A place on layers that lie on each other with steep edges.
+    // Place in a stack of layers with steep edges.
     let level = floor(scales.value * LEVELS);
     let within = scales.value * LEVELS - level;
     let rise = smoothstep(0.78, 1.0, within);
@@ -195,7 +214,7 @@ fn corroded(u: StainUniform, bright: SurfaceShading, s: StainSample, streak: Gra
     let pits = smoothstep(0.8, 0.93, 1.0 - grit.value) * grit.kept * smoothstep(0.1, 0.5, age);
     let color = mix(dark, orange * tone, 0.92 * layered) * (1.0 - 0.65 * pits);
     let rough = mix(0.62, 0.95, layered) - 0.1 * (1.0 - layered) * around(grit, 0.0, 1.0);
-    // The height's slope, with cover and age taken for even.
+    // Slope of the height; cover and age are taken to be even.
     let t = clamp((within - 0.78) / 0.22, 0.0, 1.0);
     let pit = clamp((0.2 - grit.value) / 0.13, 0.0, 1.0);
     let rise_slope = 6.0 * t * (1.0 - t) / 0.22 * scales.slope;
@@ -211,7 +230,7 @@ fn corroded(u: StainUniform, bright: SurfaceShading, s: StainSample, streak: Gra
 
 #endif
 
-// The look of a place: `base` is that of the standard material, which metal has no use for.
+// Shading of a place. `base` is the shading by the standard material; metal does not use it.
 fn stained(u: StainUniform, base: SurfaceShading, s: StainSample) -> SurfaceShading {
     var shading = base;
     var porous = s.rust;

@@ -1,17 +1,11 @@
-//! What the shader is told about a part.
+//! Defines the uniform buffer of the stain shader.
 
-use bevy::{
-    math::Vec3,
-    pbr::{ExtendedMaterial, StandardMaterial},
-    render::render_resource::ShaderType,
-};
+use bevy::{math::Vec3, render::render_resource::ShaderType};
 
-use super::{StainExtension, StainView};
+use super::view::StainView;
 use crate::appearance::shading::{FilmShading, StainPattern};
-/// A standard material with stains on it.
-pub type StainedMaterial = ExtendedMaterial<StandardMaterial, StainExtension>;
 
-/// `StainUniform` of `shading.wgsl`.
+/// Uniform buffer of a part: colours, strengths and patterns. It has the layout of `StainUniform` in `shading.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, ShaderType)]
 pub struct StainUniform {
     rust_thin: Vec3,
@@ -40,8 +34,9 @@ pub struct StainUniform {
 }
 
 impl StainUniform {
+    /// Returns the uniform of a part with this shading.
     pub(super) fn new(view: StainView, shading: &FilmShading, pattern: &StainPattern) -> Self {
-        // Sizes divide: what is not above 0 would be drawn as NaN.
+        // The shader divides by sizes, so a size of 0 would give NaN.
         let size = |size: f32| size.max(1e-5);
         Self {
             rust_thin: shading.stains.rust_thin,

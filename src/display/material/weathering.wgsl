@@ -1,5 +1,5 @@
-// Stains on a standard material. Draws the forward and the deferred pass; prepass and shadows stay Bevy's own, for
-// nothing here moves vertices or cuts holes.
+// Draws stains on a standard material, in the forward and the deferred pass. The prepass and shadows use Bevy's own
+// shaders, as nothing here moves vertices or cuts holes.
 #import bevy_coating::shading::{StainSample, StainUniform, SurfaceShading, stained}
 #import bevy_pbr::{
     mesh_functions,
@@ -35,14 +35,14 @@
 const VIEW_SURFACE: u32 = 2u;
 const VIEW_NORMAL: u32 = 3u;
 
-// What goes from vertex to fragment beside Bevy's own, at locations that are free in both passes.
+// Values from vertex to fragment shader besides Bevy's own, at locations that are free in both passes.
 struct StainVarying {
     @location(10) stains: vec4<f32>,
     @location(11) rest: vec3<f32>,
     @location(12) rest_normal: vec3<f32>,
 }
 
-// Bevy's `VertexOutput` of the pass, and the above: structs with locations cannot be nested.
+// Bevy's `VertexOutput` of the pass together with `StainVarying`; structs with locations cannot be nested.
 struct StainedOutput {
     @builtin(position) position: vec4<f32>,
 #ifdef PREPASS_PIPELINE
@@ -135,8 +135,8 @@ fn vertex(
     return out;
 }
 
-// The normal `n` of a surface of which `slope` is that of its height over the place at rest (Mikkelsen 2010, without
-// texture coordinates). What the place at rest and in the world have in common is their change from pixel to pixel.
+// Tilts the normal `n` by the slope of the height (Mikkelsen 2010, without texture coordinates). The slope is per metre
+// at rest; the changes of rest and world position from pixel to pixel relate it to the surface in the world.
 fn bumped(
     n: vec3<f32>,
     slope: vec3<f32>,
@@ -155,7 +155,7 @@ fn bumped(
 
 @fragment
 fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_front: bool) -> FragmentOutput {
-    // Before any pixel is discarded.
+    // Derivatives must be taken before any pixel is discarded.
     let rest_x = dpdx(extra.rest);
     let rest_y = dpdy(extra.rest);
     let world_x = dpdx(in.world_position.xyz);
@@ -189,20 +189,20 @@ fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_fro
     if any(shading.slope != vec3<f32>(0.0)) {
         pbr.N = bumped(pbr.N, shading.slope, rest_x, rest_y, world_x, world_y);
     }
-    // Dirt covers what shines of itself, and the clear coat over it.
+    // Dirt hides emissive light and the clear coat.
     let bare = 1.0 - min(max(s.dust, 1.0 - exp(-3.0 * s.rust)), 1.0);
     pbr.material.emissive = vec4<f32>(pbr.material.emissive.rgb * bare, pbr.material.emissive.a);
     pbr.material.clearcoat *= bare;
     apply_decals(&pbr);
 
     if stain.view != 0u {
-        var shown = shading.base_color;
+        var viewed = shading.base_color;
         if stain.view == VIEW_SURFACE {
-            shown = vec3<f32>(shading.metallic, shading.roughness, shading.reflectance.x);
+            viewed = vec3<f32>(shading.metallic, shading.roughness, shading.reflectance.x);
         } else if stain.view == VIEW_NORMAL {
-            shown = pbr.N * 0.5 + 0.5;
+            viewed = pbr.N * 0.5 + 0.5;
         }
-        pbr.material.base_color = vec4<f32>(shown, 1.0);
+        pbr.material.base_color = vec4<f32>(viewed, 1.0);
         pbr.material.flags |= pbr_types::STANDARD_MATERIAL_FLAGS_UNLIT_BIT;
     }
 
