@@ -18,7 +18,7 @@ fn main() {
         .run();
 }
 
-/// What the player has been told so far.
+/// The score, and the news for the player.
 #[derive(Resource, Default)]
 struct Scoreboard {
     flakes: u32,

@@ -17,7 +17,7 @@ fn main() {
         .run();
 }
 
-/// On each sphere: the preset of its paint.
+/// The preset of the paint on a sphere.
 #[derive(Component)]
 struct Shows(Preset);
 

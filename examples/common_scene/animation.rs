@@ -48,7 +48,7 @@ impl Animation {
 
     /// Returns the GIF file.
     pub fn encode(&self) -> Result<Vec<u8>, EncodingError> {
-        let mut palette = Palette::of(self.sample());
+        let mut palette = Palette::of(&self.sample());
         let mut encoder = Encoder::new(Vec::new(), self.width, self.height, &palette.bytes())?;
         encoder.set_repeat(Repeat::Infinite)?;
         let mut drawn = Vec::new();
@@ -122,13 +122,14 @@ struct Palette {
 
 impl Palette {
     /// The colours of the sample; where they are too many, those that stand for them best.
-    fn of(sample: Vec<Rgb>) -> Self {
+    fn of(sample: &[Rgb]) -> Self {
         let distinct: BTreeSet<Rgb> = sample.iter().copied().collect();
         let colors = if distinct.len() <= COLORS {
             distinct.into_iter().collect()
         } else {
-            let opaque: Vec<u8> = sample.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect();
-            // Of every third pixel.
+            // Each counts as often as it occurs, and twice more: else small things that are bright would be drawn in greys.
+            let counted = sample.iter().chain(&distinct).chain(&distinct);
+            let opaque: Vec<u8> = counted.flat_map(|&[r, g, b]| [r, g, b, 255]).collect();
             NeuQuant::new(3, COLORS, &opaque).color_map_rgb().as_chunks::<3>().0.to_vec()
         };
         Self { colors, mixed: HashMap::new() }
