@@ -26,7 +26,7 @@ fn main() -> AppExit {
         return common_scene::bare::run(&folder, bare::pieces(&options));
     }
     let mut app = App::new();
-    if options.scene.headless || !graphics::display_exists() {
+    if options.scene.pictures() || !graphics::display_exists() {
         headless::add(&mut app, &options.scene, folder, views::shots(&options));
     } else {
         let size = options.scene.size.map_or(views::SIZE, UVec2::from);

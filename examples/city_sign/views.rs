@@ -2,7 +2,6 @@
 
 use crate::cli::{Options, View};
 use crate::common_scene::camera::Orbit;
-use crate::common_scene::cli::in_order;
 use crate::common_scene::headless::Shot;
 use crate::common_scene::window::Views;
 use bevy::prelude::*;
@@ -43,5 +42,6 @@ pub fn shots(options: &Options) -> Vec<Shot> {
         let name = if views.len() > 1 { format!("_{view:?}").to_lowercase() } else { String::new() };
         Shot { age, orbit: orbit(view), size: SIZE, file: format!("city_sign{name}_age_{age:.2}.png") }
     };
-    in_order(&options.ages).into_iter().flat_map(|age| views.iter().map(move |view| shot(age, *view))).collect()
+    let ages = options.scene.ages(&options.ages);
+    ages.into_iter().flat_map(|age| views.iter().map(move |view| shot(age, *view))).collect()
 }

@@ -16,6 +16,12 @@ pub struct SceneArgs {
     /// Size of the pictures or of the window [default: fits the view].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
+    /// Render one moving picture instead: a GIF of the first view, from age 0 to age 1.
+    #[arg(long, value_name = "FILE")]
+    pub animate: Option<PathBuf>,
+    /// Frames of the moving picture.
+    #[arg(long, value_name = "NUMBER", default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=500))]
+    pub frames: u32,
     /// Another seed, other cracks.
     #[arg(long, default_value_t = 7)]
     pub seed: u64,
@@ -25,6 +31,20 @@ impl SceneArgs {
     /// Where the pictures of `example` go.
     pub fn folder(&self, example: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| PathBuf::from("output").join(example))
+    }
+
+    /// Whether pictures are asked for, rather than a window.
+    pub fn pictures(&self) -> bool {
+        self.headless || self.animate.is_some()
+    }
+
+    /// Ages of the pictures, in order: those `given`, or the moving picture's, spread evenly.
+    pub fn ages(&self, given: &[f64]) -> Vec<f64> {
+        if self.animate.is_none() {
+            return in_order(given);
+        }
+        let last = self.frames - 1;
+        (0..=last).map(|frame| f64::from(frame) / f64::from(last)).collect()
     }
 }
 
@@ -50,7 +70,7 @@ pub fn parse_preset(name: &str) -> Result<(String, CoatingSettings), String> {
 }
 
 /// Paint does not grow back: pictures are taken in order of age, each age once.
-pub fn in_order(ages: &[f64]) -> Vec<f64> {
+fn in_order(ages: &[f64]) -> Vec<f64> {
     let mut ages = ages.to_vec();
     ages.sort_by(f64::total_cmp);
     ages.dedup();

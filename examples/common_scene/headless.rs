@@ -1,5 +1,6 @@
-//! Pictures without a window: one PNG for each shot.
+//! Pictures without a window: one PNG for each shot, or one GIF of them all.
 
+use super::animation::Animation;
 use super::camera::{self, Orbit};
 use super::paint::Progress;
 use super::picture::{self, SUPERSAMPLING};
@@ -33,7 +34,7 @@ pub struct Shot {
     pub file: String,
 }
 
-/// Takes `shots`, which are in order of age, into `folder`.
+/// Takes `shots`, which are in order of age, into `folder`, or into the moving picture that is asked for.
 pub fn add(app: &mut App, args: &SceneArgs, folder: PathBuf, shots: Vec<Shot>) {
     app.add_plugins(
         DefaultPlugins
@@ -71,6 +72,8 @@ struct Session {
     /// Still to take, in order.
     shots: VecDeque<Shot>,
     folder: PathBuf,
+    /// The moving picture so far and its file, if there is to be one.
+    animation: Option<(Animation, PathBuf)>,
     started: Instant,
     /// Last tenth of age told.
     told: u32,
@@ -80,10 +83,17 @@ struct Session {
 impl Session {
     fn new(args: &SceneArgs, folder: PathBuf, shots: Vec<Shot>) -> Self {
         let sized = |shot: Shot| Shot { size: args.size.map_or(shot.size, UVec2::from), ..shot };
+        let mut shots: Vec<Shot> = shots.into_iter().map(sized).collect();
+        let animation = args.animate.clone().zip(shots.first().map(|shot| shot.size)).map(|(file, size)| {
+            // The first view of each age.
+            shots.dedup_by_key(|shot| shot.age);
+            (Animation::new(size.x as u16, size.y as u16), file)
+        });
         Self {
             stage: Stage::Loading,
-            shots: shots.into_iter().map(sized).collect(),
+            shots: shots.into(),
             folder,
+            animation,
             started: Instant::now(),
             told: 0,
             failed: false,
@@ -97,6 +107,26 @@ impl Session {
             self.told = tenth;
             self.say(format_args!("age {age:.2}"));
         }
+    }
+
+    /// Writes a picture, or adds it to the moving picture, which is written after its last frame. Returns the file that
+    /// was written.
+    fn save(&mut self, image: &Image, shot: &Shot) -> Result<Option<PathBuf>, Box<dyn std::error::Error>> {
+        let pixels = picture::pixels(image, shot.size)?;
+        let Some((animation, file)) = &mut self.animation else {
+            let file = self.folder.join(&shot.file);
+            picture::write(&pixels, shot.size, &file)?;
+            return Ok(Some(file));
+        };
+        animation.push(&pixels);
+        if !self.shots.is_empty() {
+            return Ok(None);
+        }
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        std::fs::write(&*file, animation.encode()?)?;
+        Ok(Some(file.clone()))
     }
 
     fn say(&self, what: std::fmt::Arguments) {
@@ -176,14 +206,14 @@ fn run(
 
 fn keep(captured: On<ScreenshotCaptured>, mut session: ResMut<Session>) {
     let Some(shot) = session.shots.pop_front() else { return };
-    let file = session.folder.join(&shot.file);
-    match picture::write(&captured.image, shot.size, &file) {
-        Ok(()) => {
+    match session.save(&captured.image, &shot) {
+        Ok(Some(file)) => {
             let full = std::fs::canonicalize(&file).unwrap_or(file);
             session.say(format_args!("{}", full.display()));
         }
+        Ok(None) => {}
         Err(error) => {
-            eprintln!("{}: {error}", file.display());
+            eprintln!("{}: {error}", shot.file);
             session.failed = true;
         }
     }

@@ -4,7 +4,7 @@
 //! ```text
 //! cli --> graphics: adapter? --no--> bare: aged models and figures
 //!                      | yes
-//!                   display? --no--> headless: a PNG for every shot
+//!                   display? --no--> headless: a PNG for every shot, or (animation) one GIF of them all
 //!                      | yes
 //!                    window: orbit camera, keys, read-out
 //! ```
@@ -13,6 +13,7 @@
 
 #![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
 
+pub mod animation;
 pub mod bare;
 pub mod camera;
 pub mod cli;

@@ -1,4 +1,4 @@
-//! A rendered image becomes a PNG file.
+//! A rendered image becomes pixels, and a PNG file.
 
 use bevy::prelude::*;
 use std::fs::File;
@@ -8,8 +8,9 @@ use std::path::Path;
 /// Samples along each side of a pixel.
 pub const SUPERSAMPLING: u32 = 2;
 
-/// Averages the samples of each pixel as light, and writes a picture of `size` pixels from the image's upper left corner.
-pub fn write(image: &Image, size: UVec2, file: &Path) -> Result<(), Box<dyn std::error::Error>> {
+/// Averages the samples of each pixel as light: a picture of `size` pixels from the image's upper left corner, three
+/// bytes a pixel.
+pub fn pixels(image: &Image, size: UVec2) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let (width, height) = (size.x, size.y);
     let data = image.data.as_ref().ok_or("the picture came back without data")?;
     let linear: Vec<f32> = (0..=255u8).map(|c| Srgba::gamma_function(f32::from(c) / 255.0)).collect();
@@ -28,12 +29,17 @@ pub fn write(image: &Image, size: UVec2, file: &Path) -> Result<(), Box<dyn std:
             }
         }
     }
+    Ok(pixels)
+}
+
+/// Writes such a picture.
+pub fn write(pixels: &[u8], size: UVec2, file: &Path) -> Result<(), Box<dyn std::error::Error>> {
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let mut encoder = png::Encoder::new(BufWriter::new(File::create(file)?), width, height);
+    let mut encoder = png::Encoder::new(BufWriter::new(File::create(file)?), size.x, size.y);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header()?.write_image_data(&pixels)?;
+    encoder.write_header()?.write_image_data(pixels)?;
     Ok(())
 }

@@ -2,7 +2,6 @@
 
 use crate::cli::Options;
 use crate::common_scene::camera::Orbit;
-use crate::common_scene::cli::in_order;
 use crate::common_scene::headless::Shot;
 use crate::common_scene::paint::{Loading, Paint};
 use crate::common_scene::window::Views;
@@ -174,7 +173,7 @@ pub fn views(options: &Options, size: UVec2) -> Views {
 
 /// One for each age and theme.
 pub fn shots(options: &Options) -> Vec<Shot> {
-    let ages = in_order(&options.ages);
+    let ages = options.scene.ages(&options.ages);
     let themes = options.themes();
     let shot = |age: f64, index: usize, theme: Theme| {
         let rows = theme.rows(options);
