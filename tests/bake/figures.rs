@@ -20,7 +20,9 @@ fn figures_have_their_layout_and_agree_with_each_other() {
     assert_eq!(keys(film), expected);
     assert_eq!([&film["triangles"], &film["components"], &film["border_loops"], &film["euler"]], [800, 1, 1, 1]);
     assert!(number(&film["edge_cv"]) < 0.25 && number(&film["min_angle_deg"]) > 20.0, "{film}");
-    let run = json!({ "age": 0.93, "steps": 60, "seed": 2, "preset": "default", "sweeps_per_age": 300.0, "quality": "default" });
+    let run = json!({
+        "age": 0.93, "steps": 60, "seed": 2, "preset": "default", "sweeps_per_age": 300.0, "quality": "default"
+    });
     assert_eq!(stats["run"], run);
 
     let seconds = &stats["seconds"];

@@ -68,7 +68,9 @@ pub fn write_two_squares(folder: &Path) {
             { "name": "small", "mesh": 0 },
             { "name": "large", "mesh": 0, "scale": [-3.0, 3.0, 3.0], "translation": [-5.0, 0.0, 0.0] }
         ],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "indices": 2, "material": 0 }] }],
+        "meshes": [{ "primitives": [
+            { "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "indices": 2, "material": 0 }
+        ] }],
         "materials": [{
             "name": "enamel",
             "doubleSided": true,

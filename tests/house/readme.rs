@@ -37,14 +37,15 @@ fn table<'a>(text: &'a str, head: &str) -> Vec<Vec<&'a str>> {
     rows.filter(|cells| !cells[0].starts_with(['-', ':'])).collect()
 }
 
-/// First column of the table of features.
+/// Names in the first column of the table of features; other words there are none.
 fn listed_features(text: &str) -> BTreeSet<&str> {
-    table(text, "feature").iter().skip(1).map(|row| row[0].trim_matches('`')).collect()
+    table(text, "feature").iter().filter_map(|row| row[0].strip_prefix('`')?.strip_suffix('`')).collect()
 }
 
-/// Returns whether a version in a table covers that of `Cargo.toml`: `0.19` covers `0.19.1`.
-fn covers(listed: &str, version: &str) -> bool {
-    let listed = listed.trim_matches('`');
+/// Returns whether a version in a table, the first word of its cell, covers that of `Cargo.toml`: `0.19` covers
+/// `0.19.1`.
+fn covers(cell: &str, version: &str) -> bool {
+    let listed = cell.split(' ').next().unwrap_or_default().trim_matches('`');
     !listed.is_empty() && format!("{version}.").starts_with(&format!("{listed}."))
 }
 
@@ -89,10 +90,16 @@ fn the_readme_and_the_documentation_list_all_features() {
 
 #[test]
 fn tables_are_read() {
-    let text = "//! | bevy | feature |\n//! |---|---|\n//! | `a` | b |\n//! | c | d |\n//!\n//! | e | f |";
-    assert_eq!(table(text, "feature"), [["bevy", "feature"], ["`a`", "b"], ["c", "d"]]);
+    let text =
+        "//! | bevy | feature |\n//! |---|---|\n//! | `a` | b |\n//! | `c` | d |\n//! | none | |\n//!\n//! | e | f |";
+    assert_eq!(table(text, "feature"), [["bevy", "feature"], ["`a`", "b"], ["`c`", "d"], ["none", ""]]);
     assert_eq!(listed_features(text), BTreeSet::from(["a", "c"]));
-    assert!(covers("0.19", "0.19.1") && covers("0.1", "0.1.0") && !covers("0.1", "0.19.0") && !covers("", "0.1.0"));
+    assert!(
+        covers("0.19 (or newer)", "0.19.1")
+            && covers("0.1", "0.1.0")
+            && !covers("0.1", "0.19.0")
+            && !covers("", "0.1.0")
+    );
     assert_eq!(
         features("[package]\na = 1\n[features]\nx = []\n# y = []\nz = [\n  \"x\",\n]\n[b]"),
         BTreeSet::from(["x", "z"])
