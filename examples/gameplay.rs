@@ -27,6 +27,15 @@ struct Scoreboard {
     news: Vec<String>,
 }
 
+impl Scoreboard {
+    /// Adds a line to the news, unless it is there already: a prop that was refused is tried again when it changes.
+    fn tell(&mut self, line: String) {
+        if !self.news.contains(&line) {
+            self.news.push(line);
+        }
+    }
+}
+
 /// A crumb of paint that falls, and its speed.
 #[derive(Component)]
 struct Crumb(Vec3);
@@ -37,8 +46,7 @@ fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials
         Mesh3d(meshes.add(Capsule3d::new(0.4, 0.9))),
         MeshMaterial3d(materials.add(Color::srgb(0.2, 0.35, 0.6))),
         Transform::from_xyz(-0.2, 0.7, 0.0).with_rotation(Quat::from_rotation_z(1.57)),
-        // A tenth of the way to ruin from the start, so that there is something to see at once.
-        Coating::new(Preset::Heavy).with_start_age(0.1),
+        Coating::new(Preset::Heavy),
     ));
     // See-through materials have no paint that could come off: this coating is refused.
     let glass =
@@ -54,8 +62,8 @@ fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials
     commands.spawn((ground, MeshMaterial3d(materials.add(Color::srgb(0.4, 0.4, 0.37)))));
     let sun = DirectionalLight { illuminance: 8_000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(-1.0, 1.5, 2.0).looking_at(Vec3::ZERO, Vec3::Y)));
-    commands.insert_resource(GlobalAmbientLight { brightness: 500.0, ..default() });
-    let eye = Transform::from_xyz(0.0, 1.3, 2.8).looking_at(Vec3::new(0.0, 0.5, 0.0), Vec3::Y);
+    commands.insert_resource(GlobalAmbientLight { brightness: 300.0, ..default() });
+    let eye = Transform::from_xyz(0.0, 1.4, 3.2).looking_at(Vec3::new(0.0, 0.8, 0.0), Vec3::Y);
     commands.spawn((Camera3d::default(), eye));
 }
 
@@ -80,10 +88,10 @@ fn note_films(
     mut board: ResMut<Scoreboard>,
 ) -> Result {
     for film in ready.read() {
-        board.news.push(format!("The paint of the {} is ready: {} triangles.", names.get(film.root)?, film.triangles));
+        board.tell(format!("The paint of the {} is ready: {} triangles.", names.get(film.root)?, film.triangles));
     }
     for film in failed.read() {
-        board.news.push(format!("The {} cannot be painted: {}", names.get(film.root)?, film.error));
+        board.tell(format!("The {} cannot be painted: {}", names.get(film.root)?, film.error));
     }
     Ok(())
 }
@@ -95,7 +103,7 @@ fn note_first_crack(
     mut board: ResMut<Scoreboard>,
 ) -> Result {
     for crack in cracks.read() {
-        board.news.push(format!("The paint of the {} has cracked, at age {:.2}.", names.get(crack.entity)?, crack.age));
+        board.tell(format!("The paint of the {} has cracked, at age {:.2}.", names.get(crack.entity)?, crack.age));
     }
     Ok(())
 }
@@ -142,7 +150,7 @@ fn write_on_screen(
     status: Res<CoatingStatus>,
 ) -> Result {
     egui::Window::new("Score").resizable(false).default_width(420.0).show(contexts.ctx_mut()?, |ui| {
-        ui.heading(format!("{} flakes, {:.0} square centimetres", board.flakes, board.area * 1e4));
+        ui.heading(format!("flakes: {}, square centimetres: {:.0}", board.flakes, board.area * 1e4));
         let speed = if clock.paused { "paused".into() } else { format!("{} a second", clock.age_per_second) };
         ui.label(format!("age {:.2}, {speed} (Space, Up, Down)", status.youngest));
         ui.separator();

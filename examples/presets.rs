@@ -37,7 +37,7 @@ fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials
     }
     let sun = DirectionalLight { illuminance: 8_000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(-1.0, 1.5, 2.0).looking_at(Vec3::ZERO, Vec3::Y)));
-    commands.insert_resource(GlobalAmbientLight { brightness: 500.0, ..default() });
+    commands.insert_resource(GlobalAmbientLight { brightness: 300.0, ..default() });
     commands.spawn((Camera3d::default(), Transform::from_xyz(0.0, 0.3, 3.6).looking_at(Vec3::ZERO, Vec3::Y)));
 }
 

@@ -53,7 +53,7 @@ fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials
     commands.spawn((ground, MeshMaterial3d(materials.add(Color::srgb(0.35, 0.36, 0.33)))));
     let light = DirectionalLight { illuminance: 7_000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((light, Transform::default().looking_to(SUN, Vec3::Y)));
-    commands.insert_resource(GlobalAmbientLight { brightness: 700.0, ..default() });
+    commands.insert_resource(GlobalAmbientLight { brightness: 400.0, ..default() });
     let eye = Transform::from_xyz(0.0, 1.2, 3.0).looking_at(Vec3::new(0.0, 0.55, 0.0), Vec3::Y);
     commands.spawn((Camera3d::default(), eye));
 }
