@@ -10,8 +10,8 @@
 //! | [`limits`] | which meshes are taken, and what is not simulated |
 //! | [`how_it_works`] | the stages, and where each comes from in the paper |
 //!
-//! The same pages lie in the folder `docs` of the repository. Pages whose examples need the engine are empty without the
-//! feature `plugin`.
+//! The same pages lie in the folder `docs` of the repository. Pages whose examples need the engine are empty without
+//! the feature `plugin`.
 
 /// Destinations of the links between the pages. The pages define them too, as files, but the first definition counts.
 macro_rules! links {

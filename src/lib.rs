@@ -94,8 +94,8 @@
 //! # Limits
 //!
 //! - Skinned and morphed meshes and alpha-blended materials are refused with an error that names the way out
-//!   ([`CoatingFault`]). Materials other than `StandardMaterial` are refused, too, unless [`StainDisplay`] says to leave
-//!   the material alone. A refused prop keeps its mesh.
+//!   ([`CoatingFault`]). Materials other than `StandardMaterial` are refused, too, unless [`StainDisplay`] says to
+//!   leave the material alone. A refused prop keeps its mesh.
 //! - Of the vertex attributes only positions, normals, both sets of texture coordinates, tangents and colours are
 //!   carried over to the film.
 //! - A film touches the metal under it only, as a plane under each vertex. On concave or intersecting surfaces film

@@ -12,7 +12,8 @@ pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,
     /// Ages of the pictures: 0 is fresh paint, 1 the end of the reference run.
-    #[arg(long, value_name = "AGE,..", value_delimiter = ',', default_value = "0,0.25,0.5,0.75,1", value_parser = parse_age)]
+    #[arg(long, value_name = "AGE,..", value_delimiter = ',', value_parser = parse_age)]
+    #[arg(default_value = "0,0.25,0.5,0.75,1")]
     pub ages: Vec<f64>,
     /// What the camera looks at.
     #[arg(long, value_enum, default_value_t = View::Sign)]

@@ -6,7 +6,8 @@ use bevy::prelude::*;
 use bevy_coating::surface::Surface;
 use std::f32::consts::FRAC_PI_4;
 
-/// Triangles with smooth normals, and texture coordinates without overlap: each of the six sides has a sixth of the texture.
+/// Triangles with smooth normals, and texture coordinates without overlap: each of the six sides has a sixth of the
+/// texture.
 pub struct Shape {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,

@@ -43,7 +43,8 @@ pub enum CoatingFault {
     /// ([`StainDisplay::Material`](super::stain_display::StainDisplay::Material)).
     #[error(
         "it has material type {material}; only `StandardMaterial` can be replaced by one with stains: set \
-         `Coating::stain_display` to `StainDisplay::VertexColor` or `StainDisplay::None`, which leave the material alone"
+         `Coating::stain_display` to `StainDisplay::VertexColor` or `StainDisplay::None`, which leave the material \
+         alone"
     )]
     CustomMaterial {
         /// Type path of the material component.

@@ -154,7 +154,7 @@ fn settings_of(world: &World, source: &SettingsSource) -> Waited<Arc<CoatingSett
 fn check_components(
     world: &World,
     entity: EntityRef,
-    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "materials need feature `render`"))] coating: &Coating,
+    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
 ) -> Result<(), CoatingFault> {
     if entity.contains::<SkinnedMesh>() {
         return Err(CoatingFault::Skinned);

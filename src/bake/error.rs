@@ -4,9 +4,8 @@ use std::{io, path::PathBuf};
 
 use super::{
     gltf::GltfError,
-    obj::ObjError,
-    options::{MAX_AGE, MAX_STEPS_PER_AGE},
-    stain_output::TEXTURE_SIZES,
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES},
+    obj_error::ObjError,
 };
 use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
 

@@ -1,13 +1,19 @@
 //! Names what is aged, a file or a test piece of the paper, and reads it.
 
-use std::{ffi::OsStr, fmt, path::PathBuf};
+use std::{
+    ffi::OsStr,
+    fmt,
+    path::{Path, PathBuf},
+};
 
 use super::{
     error::BakeError,
-    gltf,
+    gltf::{self, GltfError},
+    images::Images,
+    limits::MAX_TRIANGLES,
     model::{Model, ModelMesh, Slot},
     obj,
-    options::MAX_TRIANGLES,
+    obj_error::ObjError,
 };
 use crate::remesh::sample;
 
@@ -42,16 +48,6 @@ impl TestPiece {
             Self::Plate | Self::Curved => 2,
         }
     }
-}
-
-/// Whether texture images are read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Images {
-    /// Images are read, as [`Baked::glb`](super::Baked::glb) needs them.
-    #[default]
-    Load,
-    /// Images are left where they are: enough for figures and lists of vertices.
-    Skip,
 }
 
 /// A model to be aged: a file, or a test piece of the paper.
@@ -143,6 +139,59 @@ impl fmt::Display for Input {
             Self::File(path) => path.display().fmt(f),
             Self::Piece(piece, triangles) => write!(f, "{}:{triangles}", piece.name()),
         }
+    }
+}
+
+impl Model {
+    /// Reads a model from the bytes of a .glb or .gltf file. Buffers and images that are files of their own are looked
+    /// up in `folder` and below; without a folder they are refused.
+    ///
+    /// ```
+    /// use bevy_coating::bake::{Images, Model};
+    ///
+    /// let mut positions = Vec::new();
+    /// for x in [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
+    ///     positions.extend(x.to_le_bytes());
+    /// }
+    /// # use base64::{Engine, engine::general_purpose::STANDARD};
+    /// # let base64 = STANDARD.encode(&positions);
+    /// let json = format!(
+    ///     r#"{{
+    ///         "asset": {{ "version": "2.0" }},
+    ///         "nodes": [{{ "name": "shard", "mesh": 0 }}],
+    ///         "meshes": [{{ "primitives": [{{ "attributes": {{ "POSITION": 0 }} }}] }}],
+    ///         "accessors": [{{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }}],
+    ///         "bufferViews": [{{ "buffer": 0, "byteLength": 36 }}],
+    ///         "buffers": [{{ "byteLength": 36, "uri": "data:;base64,{base64}" }}]
+    ///     }}"#
+    /// );
+    /// let model = Model::from_gltf(json.as_bytes(), None, Images::Load)?;
+    /// assert_eq!(model.meshes[0].name, "shard");
+    /// assert_eq!(model.meshes[0].surface.triangles.len(), 1);
+    /// assert!(Model::from_gltf(b"no model", None, Images::Load).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`GltfError`] if the bytes are no usable glTF 2.0.
+    pub fn from_gltf(bytes: &[u8], folder: Option<&Path>, images: Images) -> Result<Self, GltfError> {
+        gltf::read(bytes, folder, images)
+    }
+
+    /// Reads a model from the bytes of an .obj file: one mesh called `name`, without materials.
+    ///
+    /// ```
+    /// use bevy_coating::bake::Model;
+    ///
+    /// let model = Model::from_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square")?;
+    /// assert_eq!(model.meshes[0].surface.triangles, [[0, 1, 2], [0, 2, 3]]);
+    /// # Ok::<(), bevy_coating::bake::ObjError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ObjError`] if the bytes are no usable OBJ.
+    pub fn from_obj(bytes: &[u8], name: &str) -> Result<Self, ObjError> {
+        obj::read(bytes, name)
     }
 }
 

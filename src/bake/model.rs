@@ -1,16 +1,9 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
-use std::path::Path;
-
 use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
 
-use super::{
-    gltf::{self, GltfError},
-    input::Images,
-    obj::{self, ObjError},
-    warning::BakeWarning,
-};
+use super::warning::BakeWarning;
 use crate::{remesh::BuiltFilm, surface::Surface};
 
 /// Everything that a file holds and ageing needs. Read it from a file with [`Input::read`](super::Input::read), from
@@ -27,59 +20,6 @@ pub struct Model {
     pub materials: MaterialLibrary,
     /// Everything that was left out or changed.
     pub warnings: Vec<BakeWarning>,
-}
-
-impl Model {
-    /// Reads a model from the bytes of a .glb or .gltf file. Buffers and images that are files of their own are looked
-    /// up in `folder` and below; without a folder they are refused.
-    ///
-    /// ```
-    /// use bevy_coating::bake::{Images, Model};
-    ///
-    /// let mut positions = Vec::new();
-    /// for x in [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
-    ///     positions.extend(x.to_le_bytes());
-    /// }
-    /// # use base64::{Engine, engine::general_purpose::STANDARD};
-    /// # let base64 = STANDARD.encode(&positions);
-    /// let json = format!(
-    ///     r#"{{
-    ///         "asset": {{ "version": "2.0" }},
-    ///         "nodes": [{{ "name": "shard", "mesh": 0 }}],
-    ///         "meshes": [{{ "primitives": [{{ "attributes": {{ "POSITION": 0 }} }}] }}],
-    ///         "accessors": [{{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }}],
-    ///         "bufferViews": [{{ "buffer": 0, "byteLength": 36 }}],
-    ///         "buffers": [{{ "byteLength": 36, "uri": "data:;base64,{base64}" }}]
-    ///     }}"#
-    /// );
-    /// let model = Model::from_gltf(json.as_bytes(), None, Images::Load)?;
-    /// assert_eq!(model.meshes[0].name, "shard");
-    /// assert_eq!(model.meshes[0].surface.triangles.len(), 1);
-    /// assert!(Model::from_gltf(b"no model", None, Images::Load).is_err());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`GltfError`] if the bytes are no usable glTF 2.0.
-    pub fn from_gltf(bytes: &[u8], folder: Option<&Path>, images: Images) -> Result<Self, GltfError> {
-        gltf::read(bytes, folder, images)
-    }
-
-    /// Reads a model from the bytes of an .obj file: one mesh called `name`, without materials.
-    ///
-    /// ```
-    /// use bevy_coating::bake::Model;
-    ///
-    /// let model = Model::from_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square")?;
-    /// assert_eq!(model.meshes[0].surface.triangles, [[0, 1, 2], [0, 2, 3]]);
-    /// # Ok::<(), bevy_coating::bake::ObjError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`ObjError`] if the bytes are no usable OBJ.
-    pub fn from_obj(bytes: &[u8], name: &str) -> Result<Self, ObjError> {
-        obj::read(bytes, name)
-    }
 }
 
 /// Mesh of one node: one connected prop to the paint.

@@ -11,29 +11,13 @@ use bevy_math::{DVec3, Vec2, Vec3, Vec4, ops};
 use super::{
     error::BakeError,
     model::{Model, ModelMesh, Slot, centred},
+    obj_error::ObjError,
 };
 use crate::surface::Surface;
 
 /// Faces that meet at more than this angle, in radians, have a crease between them where the file gives no
 /// normals.
 const CREASE: f32 = 0.7;
-
-/// Why a file is no usable OBJ.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ObjError {
-    /// The file is no text.
-    #[error("is no text, so no .obj; check that it is a model")]
-    NotText,
-    /// A statement cannot be read.
-    #[error("line {line}: {cause}; export it again")]
-    Line {
-        /// Number of the line, from 1.
-        line: usize,
-        /// Fault of the statement.
-        cause: String,
-    },
-}
 
 /// Reads a file; its mesh has the file's name.
 ///

@@ -1,19 +1,15 @@
 //! Holds how a model is aged.
 
-use super::error::OptionsError;
-use crate::{deform::SolverQuality, remesh, settings::CoatingSettings, stain::Environment};
-
-/// Greatest age that [`bake`](super::bake()) ages to.
-pub const MAX_AGE: f64 = 100.0;
-/// Most steps per unit age that [`bake`](super::bake()) takes.
-pub const MAX_STEPS_PER_AGE: u32 = 1_000_000;
-/// Most triangles that can be asked for, of films and of test pieces.
-pub const MAX_TRIANGLES: u32 = remesh::MAX_FILM_TRIANGLES as u32;
+use super::{
+    error::OptionsError,
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE},
+};
+use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
 
 /// How fine the films of a model are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolution {
-    /// About this many triangles for all films together, shared by area: 4 to [`MAX_TRIANGLES`].
+    /// About this many triangles for all films together, shared by area: 4 to [`MAX_TRIANGLES`](super::MAX_TRIANGLES).
     Triangles(u32),
     /// One face for each triangle of the meshes, after cleaning.
     Keep,

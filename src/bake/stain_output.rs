@@ -1,11 +1,6 @@
 //! Holds how stains come into an aged model.
 
-use std::ops::RangeInclusive;
-
-use super::error::OptionsError;
-
-/// Least and most texels along the side of a texture.
-pub const TEXTURE_SIZES: RangeInclusive<u32> = 64..=8192;
+use super::{error::OptionsError, limits::TEXTURE_SIZES};
 
 /// How stains come into an aged model, which has no shaders of ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -94,7 +94,10 @@ fn euler(film: &FilmMesh) -> i64 {
 
 proptest! {
     #[test]
-    fn random_tears_and_strips_keep_every_invariant(mut film in any_mesh(), picks in prop::collection::vec(any::<u32>(), 1..150)) {
+    fn random_tears_and_strips_keep_every_invariant(
+        mut film in any_mesh(),
+        picks in prop::collection::vec(any::<u32>(), 1..150),
+    ) {
         film.validate().unwrap();
         let edges: Vec<_> = film.topology.all_edges().collect();
         for pick in picks {

@@ -21,7 +21,7 @@ pub use error::GltfError;
 
 use super::{
     error::BakeError,
-    input::Images,
+    images::Images,
     model::{MaterialLibrary, Model},
 };
 use container::Container;

@@ -1,0 +1,11 @@
+//! Says whether texture images are read.
+
+/// Whether texture images are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Images {
+    /// Images are read, as [`Baked::glb`](super::Baked::glb) needs them.
+    #[default]
+    Load,
+    /// Images are left where they are: enough for figures and lists of vertices.
+    Skip,
+}
