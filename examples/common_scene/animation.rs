@@ -71,7 +71,7 @@ impl Animation {
                 ..Frame::default()
             })?;
         }
-        Ok(encoder.into_inner()?)
+        encoder.into_inner()
     }
 
     /// The colours that are drawn: the first frame, and what changes from frame to frame.
