@@ -1,7 +1,7 @@
 //! A moving picture: the frames of a fixed view become an animated GIF that loops.
 //!
-//! All frames share one palette. Colours between its colours are dithered in a pattern that stands still, and a pixel is
-//! drawn only when its colour has changed visibly: so nothing crawls, and the file stays small.
+//! All frames share one palette. Colours between its colours are dithered in a pattern that stands still, and a pixel
+//! is drawn only when its colour has changed visibly: so nothing crawls, and the file stays small.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -24,7 +24,7 @@ const TOLERANCE: u8 = 7;
 const MIXED: usize = 8;
 /// Share of the error that mixing makes up for: the rest is less grain, and a smaller file.
 const STRENGTH: f32 = 0.6;
-/// The order in which the mixed colours are spread over a block of pixels: each next to those far from it in brightness.
+/// The order in which the mixed colours are spread over a block of pixels: neighbours are far apart in brightness.
 const PATTERN: [[u8; 4]; 4] = [[0, 4, 1, 5], [6, 2, 7, 3], [1, 5, 0, 4], [7, 3, 6, 2]];
 
 /// Frames of one size, in order.
@@ -81,8 +81,8 @@ impl Animation {
         self.frames.first().into_iter().flatten().copied().chain(changes).collect()
     }
 
-    /// The smallest rectangle of `frame` that holds every pixel which no longer looks as it was `drawn`: left, top, width,
-    /// height and pixels.
+    /// The smallest rectangle of `frame` that holds every pixel which no longer looks as it was `drawn`: left, top,
+    /// width, height and pixels.
     fn changed(&self, frame: &[Rgb], drawn: &mut Vec<Rgb>, palette: &mut Palette) -> (u16, u16, u16, u16, Vec<u8>) {
         let whole = drawn.is_empty();
         if whole {
@@ -127,7 +127,7 @@ impl Palette {
         let colors = if distinct.len() <= COLORS {
             distinct.into_iter().collect()
         } else {
-            // Each counts as often as it occurs, and twice more: else small things that are bright would be drawn in greys.
+            // Each counts as often as it occurs, and twice more: else small bright things would be drawn in greys.
             let counted = sample.iter().chain(&distinct).chain(&distinct);
             let opaque: Vec<u8> = counted.flat_map(|&[r, g, b]| [r, g, b, 255]).collect();
             NeuQuant::new(3, COLORS, &opaque).color_map_rgb().as_chunks::<3>().0.to_vec()
