@@ -95,7 +95,7 @@ impl FilmAppearance {
     ) -> Self {
         let attributes = CornerAttributes::sample(built, surface, mesh);
         let face_slots = FaceSlots::new(built, mesh.topology.face_count());
-        let mut shown = Self {
+        let mut appearance = Self {
             frames: CornerFrames::new(mesh, &attributes),
             wedges: Wedges::new(mesh, &attributes, &face_slots),
             moves: Moves::default(),
@@ -106,8 +106,8 @@ impl FilmAppearance {
             metal: Metal::default(),
             epoch: 0,
         };
-        shown.update(mesh, forces, stains, DisplayChanges::everything());
-        shown
+        appearance.update(mesh, forces, stains, DisplayChanges::everything());
+        appearance
     }
 
     /// Returns the number of slots. Each primitive of the prop is a slot and has a material of its own.

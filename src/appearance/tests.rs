@@ -1,4 +1,4 @@
-//! What is shown at rest is the prop; what is shown later follows the film.
+//! Checks that the appearance at rest is the prop, and that it follows the film later.
 
 use bevy_math::{Vec2, Vec3};
 
@@ -10,10 +10,10 @@ fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
     let mut settings = CoatingSettings::default();
     settings.deform.sweeps_per_age = 2000.0;
     let mut film = FilmState::new(&piece.film, &settings, 4, 250).unwrap();
-    let mut shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let mut appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
     film.age_to(age, &settings, &Environment::default());
-    shown.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
-    (film, shown, piece.surface)
+    appearance.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
+    (film, appearance, piece.surface)
 }
 
 fn triangles(part: &MeshPart) -> impl Iterator<Item = [usize; 3]> + '_ {
@@ -26,12 +26,12 @@ fn at(values: &[[f32; 3]], i: usize) -> Vec3 {
 
 #[test]
 fn a_fresh_film_is_the_prop_and_nothing_else() {
-    let (film, shown, surface) = aged(0.0);
-    let front = shown.front(0).unwrap();
-    assert_eq!(shown.slot_count(), 1);
+    let (film, appearance, surface) = aged(0.0);
+    let front = appearance.front(0).unwrap();
+    assert_eq!(appearance.slot_count(), 1);
     assert_eq!(front.indices.len(), 1800);
     assert_eq!(front.positions.len(), film.mesh.topology.vertex_count(), "one vertex each on a smooth plate");
-    assert!(shown.backs().is_empty() && shown.metal().is_empty());
+    assert!(appearance.backs().is_empty() && appearance.metal().is_empty());
     for (t, f) in triangles(front).zip(film.mesh.topology.all_faces()) {
         for (i, k) in t.into_iter().zip(0..3) {
             let corner = f.index() * 3 + k;
@@ -44,19 +44,19 @@ fn a_fresh_film_is_the_prop_and_nothing_else() {
 
 #[test]
 fn backs_and_metal_show_where_film_separated_and_only_there() {
-    let (film, shown, _) = aged(0.8);
+    let (film, appearance, _) = aged(0.8);
     let topology = &film.mesh.topology;
     let separated = topology.live_faces().filter(|&f| has_separated(topology, &film.forces, f)).count();
     let removed = topology.face_count() - topology.live_faces().count();
     assert!(separated > 100 && removed > 2, "{separated} {removed}");
-    assert_eq!(shown.front(0).unwrap().indices.len(), topology.live_faces().count() * 3);
-    assert_eq!(shown.backs().indices.len(), separated * 3);
-    assert_eq!(shown.metal().indices.len(), (separated + removed) * 3);
+    assert_eq!(appearance.front(0).unwrap().indices.len(), topology.live_faces().count() * 3);
+    assert_eq!(appearance.backs().indices.len(), separated * 3);
+    assert_eq!(appearance.metal().indices.len(), (separated + removed) * 3);
     // The metal lies flat, just under the film at rest, facing out; backs face the other way than their fronts.
     let depth = film.mesh.geometry.mean_edge * METAL_DEPTH;
-    assert!(shown.metal().positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
-    assert!(shown.metal().normals.iter().all(|n| n[2] > 0.99999));
-    for part in [shown.metal(), shown.backs(), shown.front(0).unwrap()] {
+    assert!(appearance.metal().positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
+    assert!(appearance.metal().normals.iter().all(|n| n[2] > 0.99999));
+    for part in [appearance.metal(), appearance.backs(), appearance.front(0).unwrap()] {
         assert_eq!(part.positions.len(), part.normals.len());
         let mut agree = 0;
         for t in triangles(part) {
@@ -68,9 +68,9 @@ fn backs_and_metal_show_where_film_separated_and_only_there() {
 }
 
 #[test]
-fn shown_vertices_part_where_the_film_tore_and_nowhere_else() {
-    let (film, shown, _) = aged(0.7);
-    let (topology, front) = (&film.mesh.topology, shown.front(0).unwrap());
+fn front_vertices_part_where_the_film_tore_and_nowhere_else() {
+    let (film, appearance, _) = aged(0.7);
+    let (topology, front) = (&film.mesh.topology, appearance.front(0).unwrap());
     let mut edges = std::collections::BTreeMap::new();
     for t in triangles(front) {
         for k in 0..3 {
@@ -86,8 +86,8 @@ fn shown_vertices_part_where_the_film_tore_and_nowhere_else() {
 
 #[test]
 fn normals_follow_the_film_as_it_bends() {
-    let (film, shown, _) = aged(0.8);
-    let front = shown.front(0).unwrap();
+    let (film, appearance, _) = aged(0.8);
+    let front = appearance.front(0).unwrap();
     let (mut close, mut turned) = (0, 0);
     for t in triangles(front) {
         let [a, b, c] = t.map(|i| at(&front.positions, i));
@@ -165,8 +165,8 @@ fn a_prop_without_normals_gets_smooth_ones_where_it_is_smooth() {
     let piece = sample::curved_plate(400, 2).unwrap();
     let surface = Surface { normals: Vec::new(), ..piece.surface };
     let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
-    let shown = FilmAppearance::new(&piece.film, &surface, &film.mesh, &film.forces, &film.stains);
-    let front = shown.front(0).unwrap();
+    let appearance = FilmAppearance::new(&piece.film, &surface, &film.mesh, &film.forces, &film.stains);
+    let front = appearance.front(0).unwrap();
     for (p, n) in front.positions.iter().zip(&front.normals) {
         let out = Vec3::new(p[0], 0.0, p[2]).normalize();
         assert!(Vec3::from_array(*n).dot(out) > 0.95);
@@ -178,8 +178,8 @@ fn flipped_faces_are_wound_as_the_prop_was() {
     let mut piece = sample::plate(100, 2).unwrap();
     piece.film.flipped = vec![true; 100];
     let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
-    let shown = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
-    let front = shown.front(0).unwrap();
+    let appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let front = appearance.front(0).unwrap();
     for t in triangles(front) {
         let [a, b, c] = t.map(|i| at(&front.positions, i));
         assert!((b - a).cross(c - a).z < 0.0);

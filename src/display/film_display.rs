@@ -1,4 +1,4 @@
-//! The film wearing the prop's surface: one mesh for each primitive of the prop.
+//! Writes the fronts of films: one mesh for each primitive of the prop, with the prop's own attributes.
 
 use bevy::{
     asset::{Assets, Handle},
@@ -12,7 +12,7 @@ use bevy::{
 };
 
 use super::{
-    FilmPaint,
+    film_paint::FilmPaint,
     mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
 };
 use crate::{
@@ -26,34 +26,39 @@ use crate::{
     stain::StainFields,
     surface::Surface,
 };
-/// What is shown of a film, and the assets that show it.
+
+/// Appearance of a film, on its entity, and the assets that draw it.
 #[derive(Component)]
 pub(crate) struct FilmDisplay {
-    pub(super) shown: FilmAppearance,
+    /// Front, backs and metal as arrays.
+    pub(super) appearance: FilmAppearance,
+    /// Transform from the film's space to the space of the prop's mesh.
     pub(super) space: PartSpace,
+    /// Display mode, colours and patterns of the stains.
     pub(super) paint: FilmPaint,
     /// Mean distance between the film's vertices, in metres.
     pub(super) edge: f32,
-    /// Whether the materials do not show `paint` yet.
+    /// Whether the materials have not been updated to `paint` yet.
     #[cfg(feature = "render")]
     pub(super) materials_outdated: bool,
     slots: Vec<DisplaySlot>,
     /// Changes that were taken in this frame, to be written into assets.
     pub(super) changes: DisplayChanges,
+    /// Backs and metal, as far as they have been spawned.
     #[cfg(feature = "render")]
-    pub(super) parts: super::parts::PartHandles,
+    pub(super) parts: super::part_handles::PartHandles,
 }
 
-/// One primitive.
+/// Primitive of the prop.
 struct DisplaySlot {
     attributes: SlotAttributes,
-    /// Written while the film was built, until it is an asset.
+    /// Mesh that was written while the film was built, until it is an asset.
     mesh: Option<Mesh>,
     handle: Option<Handle<Mesh>>,
 }
 
 impl FilmDisplay {
-    /// Display of a film at rest.
+    /// Returns the display of a film at rest.
     pub fn new(
         film: &FilmState,
         surface: &Surface,
@@ -64,7 +69,7 @@ impl FilmDisplay {
     ) -> Self {
         let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
         Self {
-            shown: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
+            appearance: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
             space: PartSpace::new(scale),
             paint,
             edge: film.mesh.geometry.mean_edge,
@@ -73,16 +78,17 @@ impl FilmDisplay {
             slots: slots.into_iter().map(empty).collect(),
             changes: DisplayChanges::default(),
             #[cfg(feature = "render")]
-            parts: super::parts::PartHandles::default(),
+            parts: super::part_handles::PartHandles::default(),
         }
     }
 
-    /// Follows the film to where it is when it is put on its prop, and writes the meshes. Part of building it.
+    /// Brings the appearance up to date with the film as it is put on its prop, and writes the meshes. It runs in the
+    /// background, as the end of a build.
     pub fn prepare(&mut self, film: &FilmState) {
-        self.shown.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
+        self.appearance.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
         for (slot, display) in self.slots.iter_mut().enumerate() {
             // A primitive of which nothing was left after cleaning keeps its mesh.
-            let Some(part) = self.shown.front(slot) else { continue };
+            let Some(part) = self.appearance.front(slot) else { continue };
             let mut mesh = new_mesh();
             let stains = front_writer(&self.paint, self.edge);
             write_part(&mut mesh, part, display.attributes, self.space, stains);
@@ -90,7 +96,7 @@ impl FilmDisplay {
         }
     }
 
-    /// Makes assets of the meshes; one handle a primitive, where the film has any of it.
+    /// Adds the meshes as assets and returns one handle a primitive; `None` for a primitive of which the film has no face.
     pub fn put_on(&mut self, assets: &mut Assets<Mesh>) -> Vec<Option<Handle<Mesh>>> {
         for slot in &mut self.slots {
             slot.handle = slot.mesh.take().map(|mesh| assets.add(mesh));
@@ -110,13 +116,13 @@ pub(super) fn follow_films(
             let display = display.bypass_change_detection();
             display.changes = changes.bypass_change_detection().take();
             if !display.changes.is_empty() {
-                display.shown.update(mesh, forces, stains, display.changes);
+                display.appearance.update(mesh, forces, stains, display.changes);
             }
         });
     });
 }
 
-/// How the stains of fronts get into their meshes.
+/// Returns the settings with which the stains of fronts are written to their meshes.
 fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
     let carrier = match paint.display {
         StainDisplay::Material => StainCarrier::Attributes,
@@ -140,7 +146,7 @@ pub(super) fn write_fronts(
                 continue;
             }
             for (slot, front) in display.slots.iter().enumerate() {
-                let Some(part) = display.shown.front(slot) else { continue };
+                let Some(part) = display.appearance.front(slot) else { continue };
                 let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
                 let stains = front_writer(&display.paint, display.edge);
                 if changes.topology {

@@ -37,7 +37,7 @@ pub(super) fn follow_coatings(
         }
         let changes = changes.bypass_change_detection();
         changes.stains = true;
-        // Stains shown in another way are another layout of the meshes.
+        // Another way of drawing stains needs another layout of the meshes.
         changes.topology |= other;
         changes.exposure |= other;
     }

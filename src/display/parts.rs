@@ -42,8 +42,6 @@ use crate::{
     sim::Stage,
 };
 
-pub(super) use super::part_handles::PartHandles;
-
 /// Returns whether the app has standard materials at all; a server may not.
 pub(super) fn has_materials(materials: Option<Res<Assets<StandardMaterial>>>) -> bool {
     materials.is_some()
@@ -145,7 +143,7 @@ impl PartAssets<'_, '_> {
         changes: DisplayChanges,
         home: &Home,
     ) {
-        let arrays = if kind == StainPart::Back { display.shown.backs() } else { display.shown.metal() };
+        let arrays = if kind == StainPart::Back { display.appearance.backs() } else { display.appearance.metal() };
         let paint = &display.paint;
         let by_material = paint.display == StainDisplay::Material && self.stained.is_some();
         let carrier = if by_material { StainCarrier::Attributes } else { StainCarrier::Colors };
