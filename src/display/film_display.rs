@@ -96,7 +96,8 @@ impl FilmDisplay {
         }
     }
 
-    /// Adds the meshes as assets and returns one handle a primitive; `None` for a primitive of which the film has no face.
+    /// Adds the meshes as assets and returns one handle a primitive; `None` for a primitive of which the film has no
+    /// face.
     pub fn put_on(&mut self, assets: &mut Assets<Mesh>) -> Vec<Option<Handle<Mesh>>> {
         for slot in &mut self.slots {
             slot.handle = slot.mesh.take().map(|mesh| assets.add(mesh));
