@@ -28,7 +28,7 @@ impl Plugin for CoatingSettingsPlugin {
 #[derive(Clone, Copy, Debug, Default, TypePath)]
 pub struct CoatingSettingsLoader;
 
-/// Why a file of settings could not be loaded.
+/// Reason why a file of settings could not be loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CoatingSettingsLoaderError {
@@ -37,7 +37,7 @@ pub enum CoatingSettingsLoaderError {
     Io {
         /// Path of the asset.
         file: String,
-        /// What the reader said.
+        /// Error of the reader.
         source: std::io::Error,
     },
     /// The file is no text.
@@ -45,7 +45,7 @@ pub enum CoatingSettingsLoaderError {
     NotText {
         /// Path of the asset.
         file: String,
-        /// Where it stops being text.
+        /// Error that says at which byte the text ends.
         source: std::str::Utf8Error,
     },
     /// The text is refused. The error names the file, line and column, and the setting and its range where one is
