@@ -151,11 +151,11 @@ pub struct MetalShading {
 impl Default for MetalShading {
     fn default() -> Self {
         Self {
-            steel: Vec3::new(0.406_448_78, 0.393_162_76, 0.380_130_7),
+            steel: Vec3::new(0.406_448_33, 0.393_123_2, 0.380_056_32),
             metallic: 0.9,
             roughness: 0.42,
             first_rust: Vec3::new(0.034, 0.018, 0.011),
-            rust: Vec3::new(0.244_933_44, 0.066_125_04, 0.016_999_12),
+            rust: Vec3::new(0.244_864_37, 0.066_030_33, 0.016_964_128),
             patch_size: 0.035,
             relief: 0.0005,
         }
@@ -214,7 +214,7 @@ pub struct PrimerShading {
 
 impl Default for PrimerShading {
     fn default() -> Self {
-        Self { color: Vec3::new(0.263_175_1, 0.233_022_2, 0.187_820_77), roughness: 0.85, reflectance: 0.3 }
+        Self { color: Vec3::new(0.263_273_42, 0.233_022_03, 0.187_316_66), roughness: 0.85, reflectance: 0.3 }
     }
 }
 
