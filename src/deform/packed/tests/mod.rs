@@ -1,8 +1,12 @@
 //! Every instruction set against the scalar twin, bit for bit; the kernels against the plain forms.
 
+mod finite;
+mod levels;
+
 use bevy_math::{Vec3, ops};
 use proptest::prelude::*;
 
+use self::levels::levels;
 use super::{
     kernels,
     lanes::{self, vector::Lanes},
@@ -18,31 +22,35 @@ use crate::{
     film::{HalfEdgeId, signed_dihedral},
 };
 
-/// Levels to be compared with the scalar twin. Says which this CPU lacks.
-fn levels() -> Vec<SimdLevel> {
-    let (here, missing): (Vec<_>, Vec<_>) = SimdLevel::ALL.into_iter().partition(|level| level.is_available());
-    for level in missing {
-        eprintln!("skipped: this CPU has no {}", level.name());
-    }
-    here.into_iter().filter(|&level| level != SimdLevel::Scalar).collect()
-}
-
-/// Which of many bit patterns a NaN has is open on every CPU; no film has any.
+/// Returns the bits of `points`. Nothing that is not finite is to be among them, and so no NaN, which has many bit
+/// patterns.
 fn bits(points: &[Point]) -> Vec<[u32; 4]> {
-    points.iter().map(|p| p.0.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })).collect()
+    assert!(points.iter().flat_map(|p| p.0).all(f32::is_finite));
+    points.iter().map(|p| p.0.map(f32::to_bits)).collect()
 }
 
-/// Coordinates as they occur, and such as break things: zeros of both signs, huge, tiny, infinite, NaN.
+/// Coordinates as they occur, and such as break things: zeros of both signs, huge and tiny ones.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         20 => -3.0f32..3.0,
-        1 => prop::sample::select(vec![0.0, -0.0, 1e-30, -1e-42, 1e18, -1e30, f32::INFINITY, f32::NAN]),
+        1 => prop::sample::select(vec![0.0, -0.0, 1e-30, -1e-42, 1e18, -1e30]),
     ]
 }
 
 fn point() -> impl Strategy<Value = Point> {
     ([coordinate(), coordinate(), coordinate()], prop::bool::ANY)
         .prop_map(|([x, y, z], free)| Point([x, y, z, if free { 1.0 } else { 0.0 }]))
+}
+
+/// A null plane, then so many random ones, with normals no longer than about 1.
+fn planes(count: usize) -> impl Strategy<Value = Vec<Point>> {
+    let plane = ((-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0), coordinate());
+    prop::collection::vec(plane.prop_map(|((x, y, z), distance)| Point([x, y, z, distance])), count).prop_map(
+        |mut planes| {
+            planes.insert(0, Point::default());
+            planes
+        },
+    )
 }
 
 /// A null point, then so many random ones.
@@ -97,7 +105,7 @@ proptest! {
 
     #[test]
     fn momentum_and_half_space_are_the_same_bits_at_every_level(
-        now in points(LANES), before in points(LANES), planes in points(LANES), keep in 0.0f32..1.0,
+        now in points(LANES), before in points(LANES), planes in planes(LANES), keep in 0.0f32..1.0,
     ) {
         let [awake] = offsets::<1>();
         let run = |level| {

@@ -1,5 +1,8 @@
 //! Both constraints against numeric gradients and limits; the solver against the paper's figures.
 
+pub mod draw;
+mod finite;
+
 use core::f32::consts::PI;
 
 use bevy_math::{DVec3, Vec3, ops};
