@@ -2,6 +2,7 @@
 //! bands.
 
 mod needles;
+mod settings;
 mod solvers;
 mod stains;
 
