@@ -20,6 +20,7 @@
 //! ```
 
 mod changes;
+pub(crate) mod direction;
 mod edit;
 mod geometry;
 mod handles;

@@ -83,6 +83,7 @@ pub fn moisten(
     environment: &Environment,
     dt: f32,
 ) {
+    let environment = &environment.in_range();
     let raining = environment.rain != Vec3::ZERO;
     if !raining && !stains.damp {
         return;

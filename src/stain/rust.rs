@@ -55,6 +55,7 @@ pub fn run_off(
     environment: &Environment,
     dt: f32,
 ) {
+    let environment = &environment.in_range();
     corrode(stains, settings, dt);
     let RustSettings { spread, into_cracks, .. } = settings.rust;
     let spread = (spread * spread + environment.gusts * environment.gusts).sqrt();

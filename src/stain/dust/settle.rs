@@ -40,7 +40,7 @@ pub fn settle_dust(
     dt: f32,
 ) {
     let mut rates = std::mem::take(&mut stains.dust_rates);
-    let basis = rates.update(mesh, settings, environment.gravity, dt);
+    let basis = rates.update(mesh, settings, environment.in_range().gravity, dt);
     if settings.rate > 0.0 {
         for (dust, left) in stains.film.dust.iter_mut().zip(rates.left_on_film()) {
             *dust = 1.0 - (1.0 - *dust) * left;
