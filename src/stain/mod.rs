@@ -24,6 +24,7 @@ mod moisture;
 mod outflow;
 mod rust;
 mod shape;
+pub(crate) mod shown;
 mod slope;
 mod sources;
 mod ticks;

@@ -125,7 +125,7 @@ pub fn moisten(
         stains.film.moisture.fill(0.0);
         stains.metal.moisture.fill(0.0);
     }
-    stains.revision = stains.revision.wrapping_add(1);
+    stains.revise_if_seen();
 }
 
 /// Weather over one film.

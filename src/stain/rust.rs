@@ -78,7 +78,7 @@ pub fn run_off(
         stains.streaks += stains.flow.pull.normalize_or_zero() * pass.stained;
     }
     if !(stains.open.is_empty() && stains.flow.is_asleep()) {
-        stains.revision = stains.revision.wrapping_add(1);
+        stains.revise_if_seen();
     }
 }
 

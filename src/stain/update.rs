@@ -61,7 +61,7 @@ pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmCh
     for v in torn.chain(removed) {
         update_place(mesh, stains, topology.original(v));
     }
-    stains.revision = stains.revision.wrapping_add(1);
+    stains.revise();
 }
 
 impl StainFields {

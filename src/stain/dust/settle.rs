@@ -51,8 +51,10 @@ pub fn settle_dust(
             let dust = &mut stains.metal.dust[v as usize];
             *dust = 1.0 - (1.0 - *dust) * left;
         }
-        stains.revision = stains.revision.wrapping_add(1);
     }
     rates.give_back(basis);
     stains.dust_rates = rates;
+    if settings.rate > 0.0 {
+        stains.revise_if_seen();
+    }
 }
