@@ -28,6 +28,7 @@ mod mesh;
 mod pieces;
 mod topology;
 mod validate;
+pub(crate) mod words;
 
 pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;

@@ -19,6 +19,7 @@ mod adhesion;
 mod aging;
 mod balance;
 mod binding;
+mod digest;
 mod drawn;
 mod edit;
 mod event_queue;

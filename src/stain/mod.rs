@@ -13,6 +13,7 @@
 
 mod catchments;
 mod corrosion;
+mod digest;
 mod duplicates;
 mod dust;
 mod environment;
