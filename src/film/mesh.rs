@@ -57,7 +57,7 @@ impl FilmMesh {
     ///
     /// Forces, constraints and stains must follow: outside this crate,
     /// [`FilmState::tear_edge`](crate::sim::FilmState::tear_edge) does all of it.
-    pub fn tear(&mut self, h: HalfEdgeId, gravity: Vec3) -> Option<[TearEnd; 2]> {
+    pub(crate) fn tear(&mut self, h: HalfEdgeId, gravity: Vec3) -> Option<[TearEnd; 2]> {
         let gravity = unit_or_zero(gravity);
         let Self { topology, geometry } = self;
         let ends = topology.tear(h, |topology, a, b| {

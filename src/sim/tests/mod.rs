@@ -1,6 +1,7 @@
 //! Tests whole runs: invariants at every step, determinism, independence of the step size, and figures within their
 //! bands.
 
+mod edits;
 mod needles;
 mod settings;
 mod solvers;

@@ -6,7 +6,7 @@ use crate::{
     deform::{SimdLevel, SolverQuality},
     film::{FilmMesh, tests::grid},
     settings::{CoatingSettings, Preset},
-    sim::FilmState,
+    sim::state::FilmState,
     stain::Environment,
 };
 
