@@ -49,8 +49,8 @@ pub fn tear_by_hand(
 /// Separates the corners of the face `f`, tears its edges and removes it. What else nothing holds any more comes off
 /// with it, as in [`strip`](super::strip).
 ///
-/// The parameters are those of [`tear_by_hand`]. Returns `false`, and changes nothing, if there is no such face or it is
-/// gone.
+/// The parameters are those of [`tear_by_hand`]. Returns `false`, and changes nothing, if there is no such face or it
+/// is gone.
 pub fn strip_by_hand(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,

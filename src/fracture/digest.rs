@@ -6,8 +6,8 @@ use crate::film::words::Words;
 impl FilmForces {
     /// Appends all that decides what becomes of the forces.
     pub(crate) fn write_state(&self, to: &mut Words) {
-        // Every field is named, so that none is forgotten. Loose pieces and bend weights follow from the film at rest and
-        // its cracks, and no result depends on predictions.
+        // Every field is named, so that none is forgotten. Loose pieces and bend weights follow from the film at rest
+        // and its cracks, and no result depends on predictions.
         let Self {
             separated_age,
             tips,

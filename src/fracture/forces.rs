@@ -85,9 +85,9 @@ pub struct FilmForces {
 impl FilmForces {
     /// Creates the forces of a fresh film, on which every vertex is attached.
     ///
-    /// `seed` draws the adhesion of each vertex ([`adhesion_field`](super::adhesion_field)) and the weak edges, each inner edge with the
-    /// probability [`weak_probability`](crate::settings::TearingSettings::weak_probability) (VC 5.2). The same mesh,
-    /// settings and seed give the same bits.
+    /// `seed` draws the adhesion of each vertex ([`adhesion_field`](super::adhesion_field)) and the weak edges, each
+    /// inner edge with the probability [`weak_probability`](crate::settings::TearingSettings::weak_probability) (VC
+    /// 5.2). The same mesh, settings and seed give the same bits.
     ///
     /// ```
     /// use bevy_coating::{film::FilmMesh, fracture::FilmForces, settings::CoatingSettings};
@@ -172,8 +172,8 @@ impl FilmForces {
         (self.adhesion_drawn[i] - self.adhesion_lost_wet[i] - self.adhesion_lost as f32).max(0.0)
     }
 
-    /// Sets the present adhesion of `v`, which goes on falling with age but no longer follows settings. With an infinite
-    /// adhesion `v` never separates.
+    /// Sets the present adhesion of `v`, which goes on falling with age but no longer follows settings. With an
+    /// infinite adhesion `v` never separates.
     ///
     /// ```
     /// use bevy_coating::{

@@ -24,6 +24,7 @@ mod digest;
 mod drawn;
 mod edit;
 mod event_queue;
+mod follow;
 mod forces;
 mod predictions;
 mod scratch;

@@ -16,7 +16,8 @@ impl FilmState {
     ///
     /// All numbers are little-endian. First the film:
     ///
-    /// - the number of steps (u64), the number of steps in a unit of age (u32) and the numbers of vertices, faces and half-edges (u32 each);
+    /// - the number of steps (u64), the number of steps in a unit of age (u32) and the numbers of vertices, faces and
+    ///   half-edges (u32 each);
     /// - for each vertex its original (u32), rest position, position (3 f32 each), adhesion, separation age (f32 each;
     ///   infinite while attached) and tip direction (3 f32);
     /// - for each face the origins of its half-edges (3 u32), its fate (u8: 0 live, 1 stripped, 2 fallen) and its
@@ -30,14 +31,14 @@ impl FilmState {
     /// - the number of source states (u32) and the states (u8: 0 never, 1 present, 2 past);
     /// - rust emitted and dripped (f64 each) and the direction of streaks (3 f32).
     ///
-    /// Exposure is included because the later state of the film depends on it. At last whatever else decides later bits,
-    /// as 32-bit words, in the order in which the parts of the film keep it: how forces are stored, and the seed and
-    /// settings that they were drawn with; all constraints with their targets, their order in packs, the momentum of
-    /// points, and who sleeps; open metal, where cracks drain to, and the gravity, pull and rates that dust and run-off
-    /// keep through small changes.
+    /// Exposure is included because the later state of the film depends on it. At last whatever else decides later
+    /// bits, as 32-bit words, in the order in which the parts of the film keep it: how forces are stored, and the seed
+    /// and settings that they were drawn with; all constraints with their targets, their order in packs, the momentum
+    /// of points, and who sleeps; open metal, where cracks drain to, and the gravity, pull and rates that dust and
+    /// run-off keep through small changes.
     ///
-    /// Areas, predictions, buffers and counters for display are not covered: they follow from the rest or decide nothing.
-    /// Settings, environment and quality are no part of the film, but inputs of its next step.
+    /// Areas, predictions, buffers and counters for display are not covered: they follow from the rest or decide
+    /// nothing. Settings, environment and quality are no part of the film, but inputs of its next step.
     ///
     /// ```
     /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState};

@@ -1,8 +1,8 @@
 //! Ages one film step by step, without an engine.
 //!
-//! [`FilmState`] holds everything that one film needs, [`stage`] the stages of a step and [`edit`] what may be done to a
-//! film from outside. Baking, benches, background
-//! ageing and tests use them as they are; the plugin runs the same stages on the same parts, as components.
+//! [`FilmState`] holds everything that one film needs, [`stage`] the stages of a step and [`edit`] what may be done to
+//! a film from outside. Baking, benches, background ageing and tests use them as they are; the plugin runs the same
+//! stages on the same parts, as components.
 
 mod clock;
 mod digest;

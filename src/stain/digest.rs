@@ -4,8 +4,8 @@ use super::fields::StainFields;
 use crate::film::words::Words;
 
 impl StainFields {
-    /// Appends what decides later stains beyond the fields that anybody can see: open metal, duplicates, drains, ways of
-    /// run-off and rates of dust.
+    /// Appends what decides later stains beyond the fields that anybody can see: open metal, duplicates, drains, ways
+    /// of run-off and rates of dust.
     pub(crate) fn write_state(&self, to: &mut Words) {
         // The fields that anybody can see are covered by their names, and display changes nothing.
         let Self {

@@ -87,8 +87,8 @@ pub struct StainFields {
     /// (layers times square metres), so not of unit length. Display draws fine streaks along it; they keep their
     /// direction when the prop is turned later.
     pub streaks: Vec3,
-    /// Counter that changes whenever stains look different, so that display needs to follow only then: something tore or
-    /// came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since the counter last did.
+    /// Counter that changes whenever stains look different, so that display needs to follow only then: something tore
+    /// or came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since the counter last did.
     pub revision: u32,
     /// Stains as they were when the revision last changed.
     pub(super) shown: Shown,
@@ -147,6 +147,19 @@ impl StainFields {
     /// it.
     pub fn is_damp(&self) -> bool {
         self.damp
+    }
+
+    /// Counts stains as changed if they look different from when they last did.
+    pub(super) fn revise_if_seen(&mut self) {
+        if self.shown.differs(&self.film, &self.metal, &self.corrosion, self.streaks) {
+            self.revise();
+        }
+    }
+
+    /// Counts stains as changed.
+    pub(super) fn revise(&mut self) {
+        self.revision = self.revision.wrapping_add(1);
+        self.shown.note(&self.film, &self.metal, &self.corrosion, self.streaks);
     }
 
     /// Returns the amount of wet rust on film and metal, in layers times square metres.

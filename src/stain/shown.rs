@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{fields::StainFields, layer::StainLayer};
+use super::layer::StainLayer;
 
 /// Change of a value from 0 to 1 up to which it looks the same: a step of a colour of 8 bits.
 const STEP: f32 = 1.0 / 255.0;
@@ -32,35 +32,25 @@ fn looks<'a>(layer: &'a StainLayer, corrosion: &'a [f32]) -> impl Iterator<Item 
 }
 
 impl Shown {
-    /// Returns whether any stain looks different from how it was shown.
-    fn differs(&self, stains: &StainFields) -> bool {
+    /// Returns whether any stain looks different from how it was shown: of the film, of the metal with its corrosion,
+    /// or the direction of streaks.
+    pub fn differs(&self, film: &StainLayer, metal: &StainLayer, corrosion: &[f32], streaks: Vec3) -> bool {
         let far = |(now, shown): (Option<[f32; 4]>, &[f32; 4])| {
             now.is_some_and(|now| now.iter().zip(shown).any(|(now, shown)| !((now - shown).abs() <= STEP)))
         };
-        self.film.len() != stains.film.areas.len()
-            || self.metal.len() != stains.metal.areas.len()
-            || self.streaks.distance_squared(stains.streaks.normalize_or_zero()) > STEP * STEP
-            || looks(&stains.film, &[]).zip(&self.film).any(far)
-            || looks(&stains.metal, &stains.corrosion).zip(&self.metal).any(far)
-    }
-}
-
-impl StainFields {
-    /// Counts stains as changed if they look different from when they last did.
-    pub(super) fn revise_if_seen(&mut self) {
-        if self.shown.differs(self) {
-            self.revise();
-        }
+        self.film.len() != film.areas.len()
+            || self.metal.len() != metal.areas.len()
+            || self.streaks.distance_squared(streaks.normalize_or_zero()) > STEP * STEP
+            || looks(film, &[]).zip(&self.film).any(far)
+            || looks(metal, corrosion).zip(&self.metal).any(far)
     }
 
-    /// Counts stains as changed.
-    pub(super) fn revise(&mut self) {
-        self.revision = self.revision.wrapping_add(1);
-        let Shown { mut film, mut metal, .. } = std::mem::take(&mut self.shown);
-        film.clear();
-        film.extend(looks(&self.film, &[]).map(Option::unwrap_or_default));
-        metal.clear();
-        metal.extend(looks(&self.metal, &self.corrosion).map(Option::unwrap_or_default));
-        self.shown = Shown { film, metal, streaks: self.streaks.normalize_or_zero() };
+    /// Notes how stains look now.
+    pub fn note(&mut self, film: &StainLayer, metal: &StainLayer, corrosion: &[f32], streaks: Vec3) {
+        self.film.clear();
+        self.film.extend(looks(film, &[]).map(Option::unwrap_or_default));
+        self.metal.clear();
+        self.metal.extend(looks(metal, corrosion).map(Option::unwrap_or_default));
+        self.streaks = streaks.normalize_or_zero();
     }
 }

@@ -173,8 +173,8 @@ struct Pair<L: Lanes> {
 }
 
 impl<L: Lanes> Pair<L> {
-    /// Returns `-u q` of the wing with median `a` of the square length `median` and length of normal `n`. (A method, as a closure might not be
-    /// inlined, and then every instruction would be a call.)
+    /// Returns `-u q` of the wing with median `a` of the square length `median` and length of normal `n`. (A method, as
+    /// a closure might not be inlined, and then every instruction would be a call.)
     #[inline(always)]
     unsafe fn wing(self, a: Vec3<L>, median: L, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
         unsafe {
@@ -189,8 +189,8 @@ impl<L: Lanes> Pair<L> {
             let stretched = median.gt(rest);
             let over = over.mul(L::select(stretched, rest, one));
             let under = under.mul(L::select(stretched, median, one));
-            // Where all is right the strain is at most 1; squares that vanish may make it anything. Both hold only where
-            // `under` is above 0.
+            // Where all is right the strain is at most 1; squares that vanish may make it anything. Both hold only
+            // where `under` is above 0.
             let twice = under.add(under);
             let sound = L::and(twice.gt(over), twice.gt(L::splat(0.0).sub(over)));
             let strain = over.div(under).keep(L::and(self.valid, sound));

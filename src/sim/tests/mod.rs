@@ -68,9 +68,9 @@ fn the_same_seed_gives_the_same_bits_and_another_does_not() {
     assert_ne!(run(4), run(5));
 }
 
-/// Which edge tears first decides how a crack runs on, so single films with other steps differ: at age 1 by up to 0.013 of
-/// their edges torn (of 0.06 to 0.2) and 0.010 of their faces come off. Means over eight seeds differ by up to 0.002 of
-/// the vertices separated, by 6 % of the torn edges at age 0.5 and 1.5 % at age 1, and by 5 % of the faces come off.
+/// Which edge tears first decides how a crack runs on, so single films with other steps differ: at age 1 by up to 0.013
+/// of their edges torn (of 0.06 to 0.2) and 0.010 of their faces come off. Means over eight seeds differ by up to 0.002
+/// of the vertices separated, by 6 % of the torn edges at age 0.5 and 1.5 % at age 1, and by 5 % of the faces come off.
 #[test]
 fn fracture_does_not_depend_on_the_number_of_steps() {
     let settings = quick();

@@ -184,8 +184,8 @@ proptest! {
             pack.medians[i][9] = plain.rest_medians[i] * plain.rest_medians[i];
         }
         unsafe { kernels::sweep_bends::<lanes::scalar::Scalar>(points.as_mut_ptr(), &[pack]) };
-        // The strain of a wing that rests at the cosine k and is at c is `1 - sqrt(x)` in the printed form and
-        // `(1 - x) / (1 + x)` here, with `x = (1 + k) / (1 + c)`: they differ by the share s / 2 of the strain s, to first
+        // The strain of a wing that rests at the cosine k and is at c is `1 - sqrt(x)` in the printed form and `(1 - x)
+        // / (1 + x)` here, with `x = (1 + k) / (1 + c)`: they differ by the share s / 2 of the strain s, to first
         // order. A wing's pull moves no point farther than its share of the mass.
         let edge = (p[1] - p[0]).normalize();
         let altitudes = tips.map(|tip| (tip - edge * edge.dot(tip)).normalize());
@@ -198,7 +198,8 @@ proptest! {
             let median = tips[i] - Vec3::Y * 0.5;
             let (cosine, rest) = (neutral.dot(median) / median.length(), plain.skew[i] * ops::cos(plain.target * 0.5));
             strain = strain.max((1.0 - ((1.0 + rest) / (1.0 + cosine)).sqrt()).abs());
-            pull = pull.max(4.0 * bend_corrections(p, [1.0; 4], plain.reach, plain.rest_medians).unwrap()[i + 2].length());
+            let free = bend_corrections(p, [1.0; 4], plain.reach, plain.rest_medians).unwrap();
+            pull = pull.max(4.0 * free[i + 2].length());
         }
         let share = pull / w.iter().sum::<f32>();
         for i in 0..4 {
