@@ -99,7 +99,7 @@ fn put_on(
     }
     let FilmBuild { root, key, seed, scale, area, .. } = *build;
     let slots = std::mem::take(&mut build.slots);
-    let source = FilmSource { key, seed, slots, scale, origin, area, refused: None };
+    let source = FilmSource { key, seed, slots, scale, origin, area, hidden: Vec::new(), refused: None };
     commands
         .entity(film)
         .try_remove::<FilmBuild>()
