@@ -55,7 +55,7 @@ fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) ->
     let (f, g) = (mesh.area_vector(h.face()), mesh.area_vector(t.face()));
     let mean = (f + g).normalize_or_zero();
     let upright = |n: Vec3| n.dot(mean) > FOLD * n.length();
-    if !upright((a - d).cross(c - d)) || !upright((b - c).cross(d - c)) {
+    if !upright((c - d).cross(a - d)) || !upright((d - c).cross(b - c)) {
         return false;
     }
     if topology.edge_between(corners[2], corners[3]).is_some() {

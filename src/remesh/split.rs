@@ -35,6 +35,7 @@ pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut Ch
         if !split_all(mesh, long, limits.longest, usize::MAX, rng) {
             break;
         }
+        super::flip::flip_edges(mesh);
     }
     if limits.stray == f32::MAX {
         return;
