@@ -26,13 +26,13 @@ pub(super) struct CollapseLimits {
 /// Collapses short edges, the shortest first.
 pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) {
     let mut short: Vec<(f32, HalfEdgeId)> =
-        mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(length, _)| length < limits.shortest).collect();
+        mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(length, _)| length < limits.shortest).collect();
     short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, h) in short {
         if mesh.topology.live_faces() <= limits.fewest_faces {
             return;
         }
-        if mesh.topology.is_live(h.face()) && mesh.length(h) < limits.shortest {
+        if mesh.topology.is_live(h.face()) && mesh.sized_length(h) < limits.shortest {
             try_collapse(mesh, h, limits);
         }
     }
@@ -150,7 +150,9 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
     let longest = limits.longest.max(mesh.length(h));
     let too_long = |v: VertexId, other: VertexId| {
         mesh.position(v) != position
-            && mesh.topology.neighbours(v).any(|n| n != other && mesh.position(n).distance(position) > longest)
+            && mesh.topology.spokes(v).any(|(e, n)| {
+                n != other && mesh.position(n).distance(position) > longest.max(limits.longest * mesh.stretch(e))
+            })
     };
     if too_long(a, b) || too_long(b, a) {
         return false;

@@ -5,6 +5,10 @@ use bevy_math::Vec3;
 use super::work_mesh::{FOLD, WorkMesh, quality};
 use crate::film::HalfEdgeId;
 
+/// Cosine of the angle between two faces above which the edge between them is flipped only if it comes closer to the
+/// surface: about 15 degrees.
+const BENT: f32 = 0.966;
+
 /// Flips edges until no flip improves the triangles. Features are never flipped.
 pub(super) fn flip_edges(mesh: &mut WorkMesh) {
     let mut queue: Vec<HalfEdgeId> = mesh.topology.edges().collect();
@@ -61,8 +65,19 @@ fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) ->
     if topology.edge_between(corners[2], corners[3]).is_some() {
         return false;
     }
+    let is_bent = f.dot(g) < BENT * f.length() * g.length();
+    if !is_bent {
+        flip(mesh, h);
+        return true;
+    }
+    // The new edge may not cut through the bend: a round bar would lose its shape, edge by edge.
+    let before = mesh.stray(h);
     flip(mesh, h);
-    true
+    let closer = mesh.stray(h) <= before;
+    if !closer {
+        flip(mesh, h);
+    }
+    closer
 }
 
 /// Returns whether the two angles opposite the edge sum to more than 180 degrees and a flip raises the lower quality of

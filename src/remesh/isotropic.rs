@@ -10,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::{
     collapse::{self, CollapseLimits},
+    features::Fidelity,
     film::{BuiltFilm, MAX_FILM_TRIANGLES},
     flip, polish,
     reference::Reference,
@@ -17,7 +18,7 @@ use super::{
     resolution::Target,
     sites,
     split::{self, SplitLimits},
-    work_mesh::WorkMesh,
+    work_mesh::{WorkMesh, quality},
 };
 use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
 
@@ -56,6 +57,15 @@ const COUNT_TOLERANCE: f64 = 0.05;
 /// The same share if the target is an edge length, which fixes the count less sharply.
 const LENGTH_TOLERANCE: f64 = 0.25;
 
+/// Largest number of triangles of a film that follows its features, over the number asked for.
+const MOST: f64 = 1.5;
+/// Number of faces at which splitting stops, over the number asked for.
+const MOST_WHILE_SPLITTING: f64 = 4.0;
+/// Quality below which a triangle is a needle, about ten times as long as wide.
+const NEEDLE: f32 = 0.17;
+/// Largest share of needles in the film's area that facets may force on it.
+const MOST_NEEDLES: f64 = 0.25;
+
 /// Returns the side of the equilateral triangle with this area.
 pub(super) fn edge_of_area(area: f64) -> f32 {
     (area * 4.0 / 3.0_f64.sqrt()).sqrt() as f32
@@ -85,12 +95,25 @@ pub(super) fn remesh(
     if count > MAX_FILM_TRIANGLES as f64 {
         return Err(BuildError::TooLarge { found: count as usize, limit: MAX_FILM_TRIANGLES });
     }
-    let reference = Reference::new(surface, clean, length, count as f32);
-    let mut mesh = WorkMesh::new(&reference);
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    run(&mut mesh, target, length, count, &mut rng);
-
-    let mut film = sites::finish(&mesh, surface, clean);
+    let mut fidelity = Fidelity::Facets;
+    let mut film = loop {
+        let reference = Reference::new(surface, clean, length, count as f32, fidelity);
+        let less = fidelity.next();
+        if let Some(less) = less
+            && reference.fixed.iter().filter(|&&fixed| fixed).count() as f64 > count
+        {
+            // Every fixed vertex takes a triangle or two.
+            fidelity = less;
+            continue;
+        }
+        let mut mesh = WorkMesh::new(&reference);
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        run(&mut mesh, target, length, count, &mut rng);
+        match less {
+            Some(less) if asks_too_much(&mesh, count, fidelity) => fidelity = less,
+            _ => break sites::finish(&mesh, surface, clean),
+        }
+    };
     let found = film.triangles.len();
     let tolerance = match target {
         Target::Count(_) => COUNT_TOLERANCE,
@@ -102,16 +125,36 @@ pub(super) fn remesh(
     Ok(film)
 }
 
+/// Returns whether the features are too close together for the count. Facets that force needles on the film are given
+/// up too.
+fn asks_too_much(mesh: &WorkMesh, count: f64, fidelity: Fidelity) -> bool {
+    if mesh.topology.live_faces() as f64 > MOST * count {
+        return true;
+    }
+    if fidelity != Fidelity::Facets {
+        return false;
+    }
+    let (mut all, mut thin) = (0.0, 0.0);
+    for f in mesh.topology.faces() {
+        let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
+        let area = f64::from(mesh.area_vector(f).length());
+        all += area;
+        thin += if quality(a, b, c) < NEEDLE { area } else { 0.0 };
+    }
+    thin > MOST_NEEDLES * all
+}
+
 fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
     // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
     let mut edge = match target {
         Target::Count(_) => length,
         Target::Length(_) => length / SETTLED,
     };
+    let most = (MOST_WHILE_SPLITTING * count) as usize + mesh.topology.live_faces();
     for round in 0..ROUNDS {
         // In the first rounds the edges are still too long or too short to judge bends by them.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
-        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge) }, rng);
+        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge, most) }, rng);
         flip::flip_edges(mesh);
         collapse::collapse_short_edges(mesh, limits(edge));
         flip::flip_edges(mesh);
@@ -123,7 +166,7 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
     }
     for _ in 0..CALM_ROUNDS {
         relax(mesh, edge, 0.0, rng);
-        split::split_edges(mesh, cuts(edge), rng);
+        split::split_edges(mesh, cuts(edge, most), rng);
         flip::flip_edges(mesh);
     }
     let mut fewest_faces = 4;
@@ -145,8 +188,8 @@ fn meet_count(mesh: &mut WorkMesh, edge: f32, count: usize, rng: &mut ChaCha8Rng
     flip::flip_edges(mesh);
 }
 
-fn cuts(edge: f32) -> SplitLimits {
-    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge }
+fn cuts(edge: f32, most_faces: usize) -> SplitLimits {
+    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge, most_faces }
 }
 
 fn limits(edge: f32) -> CollapseLimits {

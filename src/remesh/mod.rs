@@ -22,6 +22,7 @@ mod relax;
 mod resolution;
 pub mod sample;
 mod sites;
+mod sizing;
 mod split;
 #[cfg(test)]
 mod tests;

@@ -84,6 +84,29 @@ impl<'a> WorkMesh<'a> {
         self.position(self.topology.origin(h)).distance(self.position(self.topology.target(h)))
     }
 
+    /// Returns the length of the edge over the factor by which edges may be longer than the target there.
+    #[inline]
+    pub fn sized_length(&self, h: HalfEdgeId) -> f32 {
+        self.length(h) / self.stretch(h)
+    }
+
+    /// Returns the factor by which the edge may be longer than the target: see `Sizing`.
+    #[inline]
+    pub fn stretch(&self, h: HalfEdgeId) -> f32 {
+        let sizing = &self.reference.sizing;
+        match self.chain(h) {
+            Some(chain) => sizing.chains[chain as usize],
+            None => sizing.patches[self.patches[h.face().index()] as usize],
+        }
+    }
+
+    /// Returns the factor that makes 1 of the quality of the best triangles that fit the patch of the face.
+    #[inline]
+    pub fn allowance(&self, f: FaceId) -> f32 {
+        let stretch = self.reference.sizing.patches[self.patches[f.index()] as usize];
+        (stretch * stretch / 1.5).max(1.0)
+    }
+
     /// Returns the unit normal of the face times twice its area.
     #[inline]
     pub fn area_vector(&self, f: FaceId) -> Vec3 {
@@ -216,7 +239,7 @@ impl<'a> WorkMesh<'a> {
             if after.dot(before) < FOLD * after.length() * before.length() || after == Vec3::ZERO {
                 return None;
             }
-            least = least.min(quality(p, a, b));
+            least = least.min(quality(p, a, b) * self.allowance(h.face()));
         }
         Some(least)
     }
@@ -227,7 +250,7 @@ impl<'a> WorkMesh<'a> {
             .faces_around(v)
             .map(|f| {
                 let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
-                quality(a, b, c)
+                quality(a, b, c) * self.allowance(f)
             })
             .fold(f32::MAX, f32::min)
     }
