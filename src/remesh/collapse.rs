@@ -4,7 +4,7 @@ use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
 use super::work_mesh::{SurfacePoint, WorkMesh};
-use crate::film::{HalfEdgeId, VertexId};
+use crate::film::{FaceId, HalfEdgeId, VertexId};
 
 /// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,8 @@ pub(super) struct CollapseLimits {
     pub stray: f32,
     /// Least quality of the faces after the collapse, unless the worst face was below it before.
     pub quality: f32,
+    /// Least cosine between two faces without a feature between them, unless they were more bent before.
+    pub roundness: f32,
     /// Number of faces at which collapsing stops.
     pub fewest_faces: usize,
 }
@@ -51,6 +53,7 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
         if keeps_features(mesh, h, surface_point, limits)
             && keeps_shape(mesh, h, position, limits)
             && keeps_close(mesh, h, position, surface_point, limits)
+            && keeps_round(mesh, h, position, limits)
         {
             let kept = collapse(mesh, h);
             mesh.positions[kept.index()] = position;
@@ -182,7 +185,7 @@ fn keeps_close(
         [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
             mesh.topology.ring(v).filter(|e| !gone.contains(&Some(e.face()))).any(|e| {
                 let far = [mesh.topology.target(e), mesh.topology.opposite(e)].map(|v| mesh.position(v));
-                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray
+                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray * mesh.scale(e.face())
             })
         })
     };
@@ -202,9 +205,49 @@ fn keeps_close(
                     _ => mesh.corner(e).triangle,
                 };
                 let middle = position.midpoint(mesh.position(n));
-                mesh.stray_at(middle, start) <= limits.stray.max(mesh.stray(e))
+                mesh.stray_at(middle, start) / mesh.scale(e.face()) <= limits.stray.max(mesh.stray(e))
             })
     })
+}
+
+/// Returns whether no two faces at the merged vertex would be bent so sharply that a round bar became angular.
+fn keeps_round(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseLimits) -> bool {
+    let after = least_cosine(mesh, h, Some(position));
+    after >= limits.roundness || after >= least_cosine(mesh, h, None)
+}
+
+/// Returns the least cosine between the faces around the edge `h` and their neighbours, with both ends of `h` at
+/// `merged`, or as they are.
+fn least_cosine(mesh: &WorkMesh, h: HalfEdgeId, merged: Option<Vec3>) -> f32 {
+    let topology = &mesh.topology;
+    let ends = [topology.origin(h), topology.target(h)];
+    let edge = [Some(h), topology.twin(h)];
+    let is_gone = |f: FaceId| merged.is_some() && edge.into_iter().flatten().any(|e| e.face() == f);
+    let normal = |f: FaceId| {
+        let [a, b, c] =
+            topology.corners(f).map(|v| merged.filter(|_| ends.contains(&v)).unwrap_or_else(|| mesh.position(v)));
+        (b - a).cross(c - a)
+    };
+    // Beyond a face that goes lies the one at its other side.
+    let beyond = |t: HalfEdgeId| {
+        if !is_gone(t.face()) {
+            return Some(t.face());
+        }
+        let is_edge = |e: HalfEdgeId| edge.contains(&Some(e));
+        let other = if is_edge(t.next()) { t.previous() } else { t.next() };
+        topology.twin(other).filter(|_| mesh.chain(other).is_none()).map(HalfEdgeId::face)
+    };
+    let mut least = 1.0_f32;
+    for f in ends.into_iter().flat_map(|v| topology.faces_around(v)).filter(|&f| !is_gone(f)) {
+        let n = normal(f);
+        for e in f.half_edges().into_iter().filter(|&e| mesh.chain(e).is_none()) {
+            if let Some(g) = topology.twin(e).and_then(beyond) {
+                let m = normal(g);
+                least = least.min(n.dot(m) / (n.length() * m.length()).max(f32::MIN_POSITIVE));
+            }
+        }
+    }
+    least
 }
 
 /// Merges the origin of `h` into its target, which is returned. The faces at the edge (one or two) and the origin are

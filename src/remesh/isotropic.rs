@@ -10,13 +10,14 @@ use rand_chacha::ChaCha8Rng;
 
 use super::{
     collapse::{self, CollapseLimits},
-    features::Fidelity,
+    features::{Fidelity, Scale},
     film::{BuiltFilm, MAX_FILM_TRIANGLES},
-    flip, polish,
+    flip, loss, polish,
     reference::Reference,
     relax::{self, Relaxation},
     resolution::Target,
     sites,
+    sizing::LEAST_PART,
     split::{self, SplitLimits},
     work_mesh::{WorkMesh, quality},
 };
@@ -57,12 +58,16 @@ const COUNT_TOLERANCE: f64 = 0.05;
 /// The same share if the target is an edge length, which fixes the count less sharply.
 const LENGTH_TOLERANCE: f64 = 0.25;
 
+/// Cosine of the angle to which a collapse may bend the film: 45 degrees, so that a pipe keeps eight sides or more.
+const ROUND: f32 = 0.7;
+/// The same where the triangles do not suffice for round pipes: 95 degrees, so that a cable keeps four sides.
+const ANGULAR: f32 = -0.09;
 /// Largest number of triangles of a film that follows its features, over the number asked for.
 const MOST: f64 = 1.5;
 /// Number of faces at which splitting stops, over the number asked for.
 const MOST_WHILE_SPLITTING: f64 = 4.0;
-/// Quality below which a triangle is a needle, about ten times as long as wide.
-const NEEDLE: f32 = 0.17;
+/// Quality below which a triangle is a needle, about seventeen times as long as wide.
+const NEEDLE: f32 = 0.1;
 /// Largest share of needles in the film's area that facets may force on it.
 const MOST_NEEDLES: f64 = 0.25;
 
@@ -96,8 +101,9 @@ pub(super) fn remesh(
         return Err(BuildError::TooLarge { found: count as usize, limit: MAX_FILM_TRIANGLES });
     }
     let mut fidelity = Fidelity::Facets;
-    let mut film = loop {
-        let reference = Reference::new(surface, clean, length, count as f32, fidelity);
+    let (mut film, starved) = loop {
+        let scale = Scale { target: length, triangles: count as f32, fidelity };
+        let reference = Reference::new(surface, clean, scale);
         let less = fidelity.next();
         if let Some(less) = less
             && reference.fixed.iter().filter(|&&fixed| fixed).count() as f64 > count
@@ -108,21 +114,38 @@ pub(super) fn remesh(
         }
         let mut mesh = WorkMesh::new(&reference);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        run(&mut mesh, target, length, count, &mut rng);
+        run(&mut mesh, Aim { target, length, count, roundness: roundness(fidelity) }, &mut rng);
         match less {
             Some(less) if asks_too_much(&mesh, count, fidelity) => fidelity = less,
-            _ => break sites::finish(&mesh, surface, clean),
+            _ => break (sites::finish(&mesh, surface, clean), reference.sizing.starved),
         }
     };
-    let found = film.triangles.len();
     let tolerance = match target {
         Target::Count(_) => COUNT_TOLERANCE,
         Target::Length(_) => LENGTH_TOLERANCE,
     };
+    let found = film.triangles.len();
+    let target = count as u32;
     if found as f64 > count * (1.0 + tolerance) {
-        film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target: count as u32, triangles: found as u32 });
+        film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target, triangles: found as u32 });
     }
+    if fidelity != Fidelity::Facets {
+        film.warnings.push(BuildWarning::NarrowFacetsSmoothed { target });
+    }
+    if starved > 0 {
+        let triangles = (f64::from(starved) * 2.0 * LEAST_PART).ceil() as u32;
+        film.warnings.push(BuildWarning::SmallPartsCoarse { parts: starved, triangles });
+    }
+    film.warnings.extend(loss::shape_loss(clean, &film, target));
     Ok(film)
+}
+
+/// Returns the least cosine between two faces that a collapse may bring about.
+fn roundness(fidelity: Fidelity) -> f32 {
+    match fidelity {
+        Fidelity::Facets | Fidelity::Creases => ROUND,
+        Fidelity::Shape => ANGULAR,
+    }
 }
 
 /// Returns whether the features are too close together for the count. Facets that force needles on the film are given
@@ -144,7 +167,17 @@ fn asks_too_much(mesh: &WorkMesh, count: f64, fidelity: Fidelity) -> bool {
     thin > MOST_NEEDLES * all
 }
 
-fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
+/// Aim of a run.
+#[derive(Clone, Copy)]
+struct Aim {
+    target: Target,
+    length: f32,
+    count: f64,
+    roundness: f32,
+}
+
+fn run(mesh: &mut WorkMesh, Aim { target, length, count, roundness }: Aim, rng: &mut ChaCha8Rng) {
+    let limits = |edge: f32| CollapseLimits { roundness, ..limits(edge) };
     // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
     let mut edge = match target {
         Target::Count(_) => length,
@@ -171,7 +204,7 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
     }
     let mut fewest_faces = 4;
     if let Target::Count(count) = target {
-        meet_count(mesh, edge, count as usize, rng);
+        meet_count(mesh, edge, CollapseLimits { fewest_faces: count as usize, ..limits(edge) }, rng);
         fewest_faces = (count as usize).saturating_sub(count as usize / 100).max(4);
     }
     for _ in 0..POLISH_ROUNDS {
@@ -181,10 +214,10 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
 }
 
 /// Collapses the shortest or splits the longest edges until the count is met.
-fn meet_count(mesh: &mut WorkMesh, edge: f32, count: usize, rng: &mut ChaCha8Rng) {
-    let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, fewest_faces: count, ..limits(edge) };
+fn meet_count(mesh: &mut WorkMesh, edge: f32, limits: CollapseLimits, rng: &mut ChaCha8Rng) {
+    let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, ..limits };
     collapse::collapse_short_edges(mesh, reserve);
-    split::split_longest_edges(mesh, edge, count, rng);
+    split::split_longest_edges(mesh, edge, limits.fewest_faces, rng);
     flip::flip_edges(mesh);
 }
 
@@ -199,6 +232,7 @@ fn limits(edge: f32) -> CollapseLimits {
         deviation: DEVIATION * edge,
         stray: STRAY_COLLAPSE * edge,
         quality: 0.3,
+        roundness: ROUND,
         fewest_faces: 4,
     }
 }

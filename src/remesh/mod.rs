@@ -14,6 +14,7 @@ mod features;
 mod film;
 mod flip;
 mod isotropic;
+mod loss;
 mod noise;
 mod polish;
 mod project;

@@ -3,7 +3,7 @@
 use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
-use super::features::{Features, Fidelity, Scale};
+use super::features::{Features, Scale};
 use super::noise::drop_noise;
 use super::sizing::Sizing;
 use super::topology::Topology;
@@ -26,17 +26,14 @@ pub(super) struct Reference<'a> {
     /// Patch of each triangle: see `Features::patches`.
     pub patches: Vec<u32>,
     pub sizing: Sizing,
-    pub fidelity: Fidelity,
 }
 
 impl<'a> Reference<'a> {
-    /// Prepares the surface for a film of edge length `target` and about `triangles` faces.
+    /// Prepares the surface for a film of this scale.
     pub fn new(
         surface: &Surface,
         clean: &'a CleanSurface,
-        target: f32,
-        triangles: f32,
-        fidelity: Fidelity,
+        scale: Scale,
     ) -> Self {
         let positions = &clean.positions;
         let topology = Topology::new(&clean.triangles, positions.len());
@@ -47,14 +44,15 @@ impl<'a> Reference<'a> {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let mut features = Features::find(surface, clean, &topology, &normals, Scale { target, triangles, fidelity });
+        let mut features = Features::find(surface, clean, &topology, &normals, scale);
+        let target = scale.target;
         drop_noise(&mut features, &topology, positions, target);
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);
-        let sizing = Sizing::new(&topology, positions, &patches, &chain_of, &chains, target);
+        let sizing = Sizing::new(&topology, positions, &patches, &chain_of, &chains, scale);
         let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
-        Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing, fidelity }
+        Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing }
     }
 
     /// Returns whether the film must follow this edge.
@@ -63,8 +61,8 @@ impl<'a> Reference<'a> {
         self.chain_of[h.index()] != NO_CHAIN
     }
 
-    /// Returns the largest distance of a chain from the chord between two arc lengths.
+    /// Returns the largest distance of a chain from the chord between two arc lengths, over the scale of the part.
     pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
-        self.chains.deviation(self.positions, chain, from, to)
+        self.chains.deviation(self.positions, chain, from, to) / self.sizing.chain_scales[chain as usize]
     }
 }

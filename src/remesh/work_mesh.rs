@@ -100,10 +100,16 @@ impl<'a> WorkMesh<'a> {
         }
     }
 
+    /// Returns the factor of tolerances at the face: see `Sizing`.
+    #[inline]
+    pub fn scale(&self, f: FaceId) -> f32 {
+        self.reference.sizing.patch_scales[self.patches[f.index()] as usize]
+    }
+
     /// Returns the factor that makes 1 of the quality of the best triangles that fit the patch of the face.
     #[inline]
     pub fn allowance(&self, f: FaceId) -> f32 {
-        let stretch = self.reference.sizing.patches[self.patches[f.index()] as usize];
+        let stretch = self.reference.sizing.patches[self.patches[f.index()] as usize] / self.scale(f);
         (stretch * stretch / 1.5).max(1.0)
     }
 
@@ -194,7 +200,7 @@ impl<'a> WorkMesh<'a> {
         std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
-    /// Returns the distance of the middle of the edge `h` from the surface. It is 0 for feature edges, whose distance
+    /// Returns the distance of the middle of the edge `h` from the surface, over the scale of the part. It is 0 for feature edges, whose distance
     /// from their line is measured instead.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {
         if self.chain(h).is_some() {
@@ -205,7 +211,7 @@ impl<'a> WorkMesh<'a> {
             (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
             _ => self.corner(h).triangle,
         };
-        self.stray_at(self.position(a).midpoint(self.position(b)), start)
+        self.stray_at(self.position(a).midpoint(self.position(b)), start) / self.scale(h.face())
     }
 
     /// Returns the largest distance of the edges at a vertex from the surface.
