@@ -3,8 +3,8 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::work_mesh::{SurfacePoint, WorkMesh};
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
+use crate::film::{HalfEdgeId, VertexId};
 
 /// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]
@@ -19,16 +19,18 @@ pub(super) struct CollapseLimits {
     pub stray: f32,
     /// Least quality of the faces after the collapse, unless the worst face was below it before.
     pub quality: f32,
-    /// Least cosine between two faces without a feature between them, unless they were more bent before.
-    pub roundness: f32,
     /// Number of faces at which collapsing stops.
     pub fewest_faces: usize,
 }
 
 /// Collapses short edges, the shortest first.
 pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) {
-    let mut short: Vec<(f32, HalfEdgeId)> =
-        mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(length, _)| length < limits.shortest).collect();
+    let mut short: Vec<(f32, HalfEdgeId)> = mesh
+        .topology
+        .edges()
+        .map(|h| (mesh.sized_length(h), h))
+        .filter(|&(length, _)| length < limits.shortest)
+        .collect();
     short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, h) in short {
         if mesh.topology.live_faces() <= limits.fewest_faces {
@@ -53,7 +55,6 @@ pub(super) fn try_collapse(mesh: &mut WorkMesh, h: HalfEdgeId, limits: CollapseL
         if keeps_features(mesh, h, surface_point, limits)
             && keeps_shape(mesh, h, position, limits)
             && keeps_close(mesh, h, position, surface_point, limits)
-            && keeps_round(mesh, h, position, limits)
         {
             let kept = collapse(mesh, h);
             mesh.positions[kept.index()] = position;
@@ -185,7 +186,8 @@ fn keeps_close(
         [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
             mesh.topology.ring(v).filter(|e| !gone.contains(&Some(e.face()))).any(|e| {
                 let far = [mesh.topology.target(e), mesh.topology.opposite(e)].map(|v| mesh.position(v));
-                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray * mesh.scale(e.face())
+                distance_to_triangle(p, [position, far[0], far[1]])
+                    <= 1.5 * limits.stray * mesh.reference.closeness * mesh.scale(e.face())
             })
         })
     };
@@ -204,50 +206,9 @@ fn keeps_close(
                     (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
                     _ => mesh.corner(e).triangle,
                 };
-                let middle = position.midpoint(mesh.position(n));
-                mesh.stray_at(middle, start) / mesh.scale(e.face()) <= limits.stray.max(mesh.stray(e))
+                mesh.stray_between(position, mesh.position(n), start, e.face()) <= limits.stray.max(mesh.stray(e))
             })
     })
-}
-
-/// Returns whether no two faces at the merged vertex would be bent so sharply that a round bar became angular.
-fn keeps_round(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseLimits) -> bool {
-    let after = least_cosine(mesh, h, Some(position));
-    after >= limits.roundness || after >= least_cosine(mesh, h, None)
-}
-
-/// Returns the least cosine between the faces around the edge `h` and their neighbours, with both ends of `h` at
-/// `merged`, or as they are.
-fn least_cosine(mesh: &WorkMesh, h: HalfEdgeId, merged: Option<Vec3>) -> f32 {
-    let topology = &mesh.topology;
-    let ends = [topology.origin(h), topology.target(h)];
-    let edge = [Some(h), topology.twin(h)];
-    let is_gone = |f: FaceId| merged.is_some() && edge.into_iter().flatten().any(|e| e.face() == f);
-    let normal = |f: FaceId| {
-        let [a, b, c] =
-            topology.corners(f).map(|v| merged.filter(|_| ends.contains(&v)).unwrap_or_else(|| mesh.position(v)));
-        (b - a).cross(c - a)
-    };
-    // Beyond a face that goes lies the one at its other side.
-    let beyond = |t: HalfEdgeId| {
-        if !is_gone(t.face()) {
-            return Some(t.face());
-        }
-        let is_edge = |e: HalfEdgeId| edge.contains(&Some(e));
-        let other = if is_edge(t.next()) { t.previous() } else { t.next() };
-        topology.twin(other).filter(|_| mesh.chain(other).is_none()).map(HalfEdgeId::face)
-    };
-    let mut least = 1.0_f32;
-    for f in ends.into_iter().flat_map(|v| topology.faces_around(v)).filter(|&f| !is_gone(f)) {
-        let n = normal(f);
-        for e in f.half_edges().into_iter().filter(|&e| mesh.chain(e).is_none()) {
-            if let Some(g) = topology.twin(e).and_then(beyond) {
-                let m = normal(g);
-                least = least.min(n.dot(m) / (n.length() * m.length()).max(f32::MIN_POSITIVE));
-            }
-        }
-    }
-    least
 }
 
 /// Merges the origin of `h` into its target, which is returned. The faces at the edge (one or two) and the origin are
@@ -255,6 +216,7 @@ fn least_cosine(mesh: &WorkMesh, h: HalfEdgeId, merged: Option<Vec3>) -> f32 {
 fn collapse(mesh: &mut WorkMesh, h: HalfEdgeId) -> VertexId {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let twin = mesh.topology.twin(h);
+    count_edit();
     let leaving: Vec<HalfEdgeId> = mesh.topology.ring(a).collect();
     let mut anchors = vec![];
     for e in leaving {

@@ -90,7 +90,8 @@ impl Features {
     ) -> Self {
         let attributes = Attributes::new(surface, clean);
         let positions = &clean.positions;
-        let low_poly = fidelity == Fidelity::Facets && clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
+        let low_poly =
+            fidelity == Fidelity::Facets && clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
         let slot = |f: FaceId| {
             clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
         };
@@ -101,9 +102,8 @@ impl Features {
             (b - a).cross(c - a).length() / (b - a).length().max(f32::MIN_POSITIVE)
         };
         // Where only the shape is kept, creases may not divide what is narrower than the film's edges.
-        let is_narrow = |h: HalfEdgeId, t: HalfEdgeId| {
-            fidelity == Fidelity::Shape && height(h).min(height(t)) < NARROW * target
-        };
+        let is_narrow =
+            |h: HalfEdgeId, t: HalfEdgeId| fidelity == Fidelity::Shape && height(h).min(height(t)) < NARROW * target;
         let is_small = |f: FaceId| {
             f.half_edges().into_iter().all(|h| {
                 let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);

@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::work_mesh::{FOLD, WorkMesh, quality};
+use super::work_mesh::{FOLD, WorkMesh, count_edit, quality};
 use crate::film::HalfEdgeId;
 
 /// Cosine of the angle between two faces above which the edge between them is flipped only if it comes closer to the
@@ -99,6 +99,7 @@ fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
 /// Turns the edge a-b between (a, b, c) and (b, a, d) into the edge d-c. Face ids stay.
 fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
     let Some(t) = mesh.topology.twin(h) else { return };
+    count_edit();
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)];
     let [c, d] = [mesh.topology.opposite(h), mesh.topology.opposite(t)];
     let outer = [h.next(), h.previous(), t.next(), t.previous()].map(|e| (mesh.topology.twin(e), mesh.chain(e)));

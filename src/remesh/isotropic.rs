@@ -12,7 +12,9 @@ use super::{
     collapse::{self, CollapseLimits},
     features::{Fidelity, Scale},
     film::{BuiltFilm, MAX_FILM_TRIANGLES},
-    flip, loss, polish,
+    flip,
+    loss::ShapeLoss,
+    polish,
     reference::Reference,
     relax::{self, Relaxation},
     resolution::Target,
@@ -58,10 +60,8 @@ const COUNT_TOLERANCE: f64 = 0.05;
 /// The same share if the target is an edge length, which fixes the count less sharply.
 const LENGTH_TOLERANCE: f64 = 0.25;
 
-/// Cosine of the angle to which a collapse may bend the film: 45 degrees, so that a pipe keeps eight sides or more.
-const ROUND: f32 = 0.7;
-/// The same where the triangles do not suffice for round pipes: 95 degrees, so that a cable keeps four sides.
-const ANGULAR: f32 = -0.09;
+/// Factor of the distances from the surface that are allowed where the film would lose too much of a round shape.
+const CLOSER: f32 = 0.4;
 /// Largest number of triangles of a film that follows its features, over the number asked for.
 const MOST: f64 = 1.5;
 /// Number of faces at which splitting stops, over the number asked for.
@@ -103,22 +103,38 @@ pub(super) fn remesh(
     let mut fidelity = Fidelity::Facets;
     let (mut film, starved) = loop {
         let scale = Scale { target: length, triangles: count as f32, fidelity };
-        let reference = Reference::new(surface, clean, scale);
+        let mut reference = Reference::new(surface, clean, scale);
+        let build = |reference: &Reference| {
+            let mut mesh = WorkMesh::new(reference);
+            run(&mut mesh, target, length, count, &mut ChaCha8Rng::seed_from_u64(seed));
+            let asks_too_much = asks_too_much(&mesh, count, fidelity);
+            (sites::finish(&mesh, surface, clean), asks_too_much)
+        };
         let less = fidelity.next();
+        // Every fixed vertex takes a triangle or two.
         if let Some(less) = less
             && reference.fixed.iter().filter(|&&fixed| fixed).count() as f64 > count
         {
-            // Every fixed vertex takes a triangle or two.
             fidelity = less;
             continue;
         }
-        let mut mesh = WorkMesh::new(&reference);
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        run(&mut mesh, Aim { target, length, count, roundness: roundness(fidelity) }, &mut rng);
-        match less {
-            Some(less) if asks_too_much(&mesh, count, fidelity) => fidelity = less,
-            _ => break (sites::finish(&mesh, surface, clean), reference.sizing.starved),
+        let (mut film, asks_too_much) = build(&reference);
+        if let Some(less) = less
+            && asks_too_much
+        {
+            fidelity = less;
+            continue;
         }
+        // Bars thinner than the triangles lose their roundness, unless the film is held closer to them.
+        let loss = ShapeLoss::of(clean, &film);
+        if loss.excess() > 1.0 {
+            reference.closeness = CLOSER;
+            let (closer, asks_too_much) = build(&reference);
+            if !asks_too_much && ShapeLoss::of(clean, &closer).excess() < loss.excess() {
+                film = closer;
+            }
+        }
+        break (film, reference.sizing.starved);
     };
     let tolerance = match target {
         Target::Count(_) => COUNT_TOLERANCE,
@@ -130,22 +146,14 @@ pub(super) fn remesh(
         film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target, triangles: found as u32 });
     }
     if fidelity != Fidelity::Facets {
-        film.warnings.push(BuildWarning::NarrowFacetsSmoothed { target });
+        film.warnings.push(BuildWarning::FeaturesSimplified { target });
     }
     if starved > 0 {
         let triangles = (f64::from(starved) * 2.0 * LEAST_PART).ceil() as u32;
         film.warnings.push(BuildWarning::SmallPartsCoarse { parts: starved, triangles });
     }
-    film.warnings.extend(loss::shape_loss(clean, &film, target));
+    film.warnings.extend(ShapeLoss::of(clean, &film).warning(target));
     Ok(film)
-}
-
-/// Returns the least cosine between two faces that a collapse may bring about.
-fn roundness(fidelity: Fidelity) -> f32 {
-    match fidelity {
-        Fidelity::Facets | Fidelity::Creases => ROUND,
-        Fidelity::Shape => ANGULAR,
-    }
 }
 
 /// Returns whether the features are too close together for the count. Facets that force needles on the film are given
@@ -167,17 +175,7 @@ fn asks_too_much(mesh: &WorkMesh, count: f64, fidelity: Fidelity) -> bool {
     thin > MOST_NEEDLES * all
 }
 
-/// Aim of a run.
-#[derive(Clone, Copy)]
-struct Aim {
-    target: Target,
-    length: f32,
-    count: f64,
-    roundness: f32,
-}
-
-fn run(mesh: &mut WorkMesh, Aim { target, length, count, roundness }: Aim, rng: &mut ChaCha8Rng) {
-    let limits = |edge: f32| CollapseLimits { roundness, ..limits(edge) };
+fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
     // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
     let mut edge = match target {
         Target::Count(_) => length,
@@ -232,7 +230,6 @@ fn limits(edge: f32) -> CollapseLimits {
         deviation: DEVIATION * edge,
         stray: STRAY_COLLAPSE * edge,
         quality: 0.3,
-        roundness: ROUND,
         fewest_faces: 4,
     }
 }

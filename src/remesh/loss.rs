@@ -10,6 +10,9 @@ const AREA: f64 = 3.0;
 /// Change of the enclosed volume above which there is a warning, in percent.
 const VOLUME: f64 = 8.0;
 
+/// Least volume of a solid, over its area to the power of 3/2.
+const THINNEST: f64 = 1e-7;
+
 /// Area and enclosed volume of triangles.
 #[derive(Clone, Copy, Default)]
 struct Measure {
@@ -31,21 +34,41 @@ impl Measure {
     }
 }
 
-/// Returns a warning if the film's area, or the volume inside, differs much from that of the surface.
-///
-/// Both errors shrink with the square of the edge, so with the number of triangles.
-pub(super) fn shape_loss(clean: &CleanSurface, film: &BuiltFilm, target: u32) -> Option<BuildWarning> {
-    let before = Measure::of(&clean.positions, &clean.triangles);
-    let after = Measure::of(&film.positions, &film.triangles);
-    let percent = |before: f64, after: f64| 100.0 * (after - before) / before.abs().max(f64::MIN_POSITIVE);
-    let area = percent(before.area, after.area);
-    let is_closed = !twins(&clean.triangles).contains(&u32::MAX);
-    let volume = if is_closed { percent(before.volume, after.volume) } else { 0.0 };
-    let excess = (area.abs() / AREA).max(volume.abs() / VOLUME);
-    (excess > 1.0).then(|| BuildWarning::ShapeCoarse {
-        target,
-        area: area as f32,
-        volume: volume as f32,
-        triangles: (excess * f64::from(target)).ceil() as u32,
-    })
+/// Changes from a surface to its film, in percent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShapeLoss {
+    area: f64,
+    /// Change of the enclosed volume; 0 if the surface is open.
+    volume: f64,
+}
+
+impl ShapeLoss {
+    /// Measures the film.
+    pub fn of(clean: &CleanSurface, film: &BuiltFilm) -> Self {
+        let before = Measure::of(&clean.positions, &clean.triangles);
+        let after = Measure::of(&film.positions, &film.triangles);
+        let percent = |before: f64, after: f64| 100.0 * (after - before) / before.abs().max(f64::MIN_POSITIVE);
+        // The volume of a sheet with two sides is nothing but rounding.
+        let is_solid = before.volume.abs() > THINNEST * before.area * before.area.sqrt();
+        let is_closed = is_solid && !twins(&clean.triangles).contains(&u32::MAX);
+        let volume = if is_closed { percent(before.volume, after.volume) } else { 0.0 };
+        Self { area: percent(before.area, after.area), volume }
+    }
+
+    /// Returns the change over the one from which there is a warning.
+    pub fn excess(self) -> f64 {
+        (self.area.abs() / AREA).max(self.volume.abs() / VOLUME)
+    }
+
+    /// Returns a warning if the change is large. Both errors shrink with the square of the edge, so with the number of
+    /// triangles.
+    pub fn warning(self, target: u32) -> Option<BuildWarning> {
+        let excess = self.excess();
+        (excess > 1.0).then(|| BuildWarning::ShapeCoarse {
+            target,
+            area: self.area as f32,
+            volume: self.volume as f32,
+            triangles: (excess * f64::from(target)).ceil() as u32,
+        })
+    }
 }

@@ -13,6 +13,7 @@ mod collapse;
 mod features;
 mod film;
 mod flip;
+mod frame;
 mod isotropic;
 mod loss;
 mod noise;
@@ -34,6 +35,7 @@ pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
 pub use resolution::FilmResolution;
 
 use crate::surface::{BuildError, Surface, clean};
+use frame::Frame;
 
 /// Builds the film of a surface: cleans the surface, remeshes it to the resolution (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.
@@ -42,7 +44,8 @@ use crate::surface::{BuildError, Surface, clean};
 /// bit.
 ///
 /// # Errors
-/// The errors of [`clean`], [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
+/// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
+/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
 /// the film would have more than [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
@@ -65,9 +68,13 @@ use crate::surface::{BuildError, Surface, clean};
 /// ```
 pub fn build_film(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
     let target = resolution.target()?;
+    let frame = Frame::of(surface)?;
+    let moved = frame.enter(surface);
+    let surface = moved.as_ref().unwrap_or(surface);
     let clean = clean(surface)?;
-    match target {
+    let film = match target {
         Some(target) => isotropic::remesh(surface, &clean, target, seed),
         None => sites::keep(surface, &clean),
-    }
+    };
+    frame.leave(film?)
 }

@@ -26,15 +26,13 @@ pub(super) struct Reference<'a> {
     /// Patch of each triangle: see `Features::patches`.
     pub patches: Vec<u32>,
     pub sizing: Sizing,
+    /// Factor of the distances from the surface that are allowed.
+    pub closeness: f32,
 }
 
 impl<'a> Reference<'a> {
     /// Prepares the surface for a film of this scale.
-    pub fn new(
-        surface: &Surface,
-        clean: &'a CleanSurface,
-        scale: Scale,
-    ) -> Self {
+    pub fn new(surface: &Surface, clean: &'a CleanSurface, scale: Scale) -> Self {
         let positions = &clean.positions;
         let topology = Topology::new(&clean.triangles, positions.len());
         let normals: Vec<Vec3> = topology
@@ -52,7 +50,7 @@ impl<'a> Reference<'a> {
         let patches = features.patches(&topology);
         let sizing = Sizing::new(&topology, positions, &patches, &chain_of, &chains, scale);
         let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
-        Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing }
+        Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing, closeness: 1.0 }
     }
 
     /// Returns whether the film must follow this edge.

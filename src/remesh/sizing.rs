@@ -74,10 +74,8 @@ impl Sizing {
         let mut sizing = Self::default();
         let scales = sizing.scale_parts(&patches, &part_of_patch, scale);
         // A strip has a triangle at each edge of its rim.
-        let needed: f64 = patches
-            .iter()
-            .map(|patch| count_of_edge(patch.area, scale.target).max(patch.perimeter / edge))
-            .sum();
+        let needed: f64 =
+            patches.iter().map(|patch| count_of_edge(patch.area, scale.target).max(patch.perimeter / edge)).sum();
         let is_crowded = needed > SPARE * f64::from(scale.triangles);
         for (patch, scale) in patches.iter().zip(&scales) {
             let height = 0.75_f64.sqrt() * edge * scale;

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::flip::flip_edges;
 use super::project::project;
-use super::work_mesh::{SurfacePoint, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// Least share of a face's area that each half must have after a split.
@@ -35,7 +35,8 @@ pub(super) struct SplitLimits {
 pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut ChaCha8Rng) {
     // Each round about halves the longest edges, so 40 rounds are more than any mesh needs.
     for _ in 0..40 {
-        let long = mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
+        let long =
+            mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
         if !split_all(mesh, long, limits.longest, limits.most_faces, rng) {
             break;
         }
@@ -100,6 +101,7 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
         }
         None => foot_of_cut(mesh, h, cut)?,
     };
+    count_edit();
     let twin = mesh.topology.twin(h);
     let m = mesh.add_vertex(position, surface_point);
     let beyond = cut_face(mesh, h, m);

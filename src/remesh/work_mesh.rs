@@ -19,6 +19,19 @@ pub(super) enum SurfacePoint {
     Free(FaceId),
 }
 
+#[cfg(test)]
+thread_local! {
+    /// Number of splits, collapses and flips so far: the measure of work for tests.
+    pub(super) static EDITS: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
+/// Counts a split, collapse or flip, for tests.
+#[inline]
+pub(super) fn count_edit() {
+    #[cfg(test)]
+    EDITS.set(EDITS.get() + 1);
+}
+
 /// Film while it is being remeshed, over the surface onto which it is projected.
 pub(super) struct WorkMesh<'a> {
     pub reference: &'a Reference<'a>,
@@ -211,7 +224,13 @@ impl<'a> WorkMesh<'a> {
             (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
             _ => self.corner(h).triangle,
         };
-        self.stray_at(self.position(a).midpoint(self.position(b)), start) / self.scale(h.face())
+        self.stray_between(self.position(a), self.position(b), start, h.face())
+    }
+
+    /// Returns the distance of the middle of an edge from `a` to `b` at the face `f` from the surface, over the scale of
+    /// the part and the closeness of the film.
+    pub fn stray_between(&self, a: Vec3, b: Vec3, start: FaceId, f: FaceId) -> f32 {
+        self.stray_at(a.midpoint(b), start) / (self.scale(f) * self.reference.closeness)
     }
 
     /// Returns the largest distance of the edges at a vertex from the surface.

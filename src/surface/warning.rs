@@ -46,13 +46,13 @@ pub enum BuildWarning {
         /// Number of triangles that the film has.
         triangles: u32,
     },
-    /// Facets and creases that are narrower than the film's triangles were smoothed over, since the film would have had
-    /// far more triangles than were asked for, or needles.
+    /// Corners, facets or creases that are closer together than the film's vertices were passed over, since the film
+    /// would have had far more triangles than were asked for, or needles.
     #[error(
-        "facets narrower than the triangles of the film were smoothed over, since {target} triangles are too few to \
-         follow them: ask for more, or keep the triangles of the mesh"
+        "corners, facets or creases closer together than the vertices of the film were passed over, since {target} \
+         triangles are too few to follow them: ask for more, or keep the triangles of the mesh"
     )]
-    NarrowFacetsSmoothed {
+    FeaturesSimplified {
         /// Number of triangles that was asked for.
         target: u32,
     },
