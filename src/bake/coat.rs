@@ -47,7 +47,8 @@ pub struct Coated {
 }
 
 /// Makes a fresh film for every mesh: the first step of [`bake`](super::bake()), for tools that do the ageing
-/// themselves. Meshes that are all slivers are left out with a warning, unless there is nothing else. `origin` is the
+/// themselves. Meshes that are all slivers, or of no possible size, are left out with a
+/// warning, unless there is nothing else. `origin` is the
 /// name of the input in messages.
 ///
 /// ```
@@ -93,7 +94,9 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
                 coated.films.push(film.ok_or_else(|| broken(BrokenFilm::NotManifold))?);
                 coated.props.push(Prop { name, surface, origin: place, slots, built, seed });
             }
-            Some(Err(source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. }))) => {
+            Some(Err(
+                source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. } | BuildError::Size { .. }),
+            )) => {
                 coated.warnings.push(BakeWarning::LeftOut { mesh: name.clone(), cause: source.clone() });
                 nothing = Some(BakeError::Build { origin: origin.into(), mesh: name, source });
             }
