@@ -40,7 +40,7 @@ pub fn bake(
     mut stopwatch: Stopwatch,
     progress: &dyn Progress,
 ) -> Result<Baked, BakeError> {
-    let Model { origin, copyright, meshes, materials, mut warnings } = model;
+    let Model { origin, copyright, meshes, materials, mut warnings, .. } = model;
     options.validate()?;
     let input = InputStats::of(&meshes);
     let coated = stopwatch.build(|| coat(&origin, meshes, options))?;

@@ -5,7 +5,7 @@ use std::{io, path::PathBuf};
 use super::{
     gltf::GltfError,
     limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES},
-    obj_error::ObjError,
+    obj::ObjError,
 };
 use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
 

@@ -1,5 +1,7 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
+use std::path::PathBuf;
+
 use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
 
@@ -20,6 +22,9 @@ pub struct Model {
     pub materials: MaterialLibrary,
     /// Everything that was left out or changed.
     pub warnings: Vec<BakeWarning>,
+    /// Files that the model is made of, as far as it comes from files: outputs must not take their places
+    /// ([`StagedFiles::guard`](super::StagedFiles::guard)).
+    pub files: Vec<PathBuf>,
 }
 
 /// Mesh of one node: one connected prop to the paint.
@@ -95,9 +100,9 @@ pub struct Image {
     pub name: Option<String>,
     /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
     pub mime_type: String,
-    /// Bytes of the encoded image.
+    /// Bytes of the encoded image; empty if they cannot be read.
     pub bytes: Vec<u8>,
-    /// Extensions and extras of the image.
+    /// Extensions and extras of the image, and its `uri` if its bytes cannot be read.
     pub rest: serde_json::Map<String, Value>,
 }
 

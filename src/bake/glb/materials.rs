@@ -125,8 +125,11 @@ impl<'a> Materials<'a> {
             if let Some(name) = &image.name {
                 fields.insert("name".into(), name.clone().into());
             }
-            fields.insert("mimeType".into(), image.mime_type.clone().into());
-            fields.insert("bufferView".into(), chunk.image(&image.bytes).into());
+            // What cannot be read stays where it is.
+            if !fields.contains_key("uri") {
+                fields.insert("mimeType".into(), image.mime_type.clone().into());
+                fields.insert("bufferView".into(), chunk.image(&image.bytes).into());
+            }
             fields.into()
         });
         let mut images: Vec<Value> = own.collect();

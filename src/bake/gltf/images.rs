@@ -1,34 +1,36 @@
 //! Reads texture images as they are stored.
 
 use super::{GltfError, container::Container};
-use crate::bake::model::Image;
+use crate::bake::{media::media_type, model::Image, warning::BakeWarning};
 
-/// Reads all images of a file.
-pub fn read(container: &Container) -> Result<Vec<Image>, GltfError> {
-    container
-        .document
-        .images
-        .iter()
-        .enumerate()
-        .map(|(i, image)| {
-            let what = format!("image {i}");
-            let (bytes, media) = match (&image.uri, image.buffer_view) {
-                (_, Some(view)) => (container.view(view, &what)?.to_vec(), None),
-                (Some(uri), None) => container.load_uri(uri, &what)?,
-                (None, None) => (Vec::new(), None),
-            };
-            let mime_type = image.mime_type.clone().or(media).unwrap_or_else(|| sniff(&bytes).into());
-            Ok(Image { name: image.name.clone(), mime_type, bytes, rest: image.rest.clone() })
-        })
-        .collect()
-}
-
-/// Media type by the first bytes.
-fn sniff(bytes: &[u8]) -> &'static str {
-    match bytes {
-        [0xff, 0xd8, 0xff, ..] => "image/jpeg",
-        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "image/webp",
-        [0xab, b'K', b'T', b'X', ..] => "image/ktx2",
-        _ => "image/png",
+/// Reads all images of a file. Those that are files of their own and cannot be read stay references.
+pub fn read(container: &Container, warnings: &mut Vec<BakeWarning>) -> Result<Vec<Image>, GltfError> {
+    let mut unreadable = (0, None);
+    let mut images = Vec::new();
+    for (i, image) in container.document.images.iter().enumerate() {
+        let what = format!("image {i}");
+        let mut rest = image.rest.clone();
+        let (bytes, media) = match (&image.uri, image.buffer_view) {
+            (_, Some(view)) => (container.view(view, &what)?.to_vec(), None),
+            (Some(uri), None) => match container.load_uri(uri, &what) {
+                Ok(found) => found,
+                Err(GltfError::External { uri: first, cause, .. }) => {
+                    unreadable.0 += 1;
+                    unreadable.1.get_or_insert((first, cause));
+                    rest.insert("uri".into(), uri.clone().into());
+                    (Vec::new(), None)
+                }
+                Err(other) => return Err(other),
+            },
+            (None, None) => (Vec::new(), None),
+        };
+        // Declarations are wrong now and then; what is not known by its bytes may be of an extension.
+        let declared = || image.mime_type.clone().or(media).unwrap_or_else(|| "image/png".into());
+        let mime_type = media_type(&bytes).map_or_else(declared, str::to_owned);
+        images.push(Image { name: image.name.clone(), mime_type, bytes, rest });
     }
+    if let (count, Some((first, cause))) = unreadable {
+        warnings.push(BakeWarning::ImagesUnreadable { count, first, cause });
+    }
+    Ok(images)
 }

@@ -1,4 +1,4 @@
-//! Reads glTF 2.0: .glb and .gltf, with buffers in the file, beside it or in data URIs.
+//! Reads glTF 2.0: .glb and .gltf, with buffers in the file, at a relative path or in data URIs.
 //!
 //! Only what ageing needs is read, and all of it is checked: nothing in a file can make this panic. Materials are kept
 //! as the JSON they are, so that extensions nobody here knows survive. The scene's meshes are moved into scene
@@ -15,12 +15,13 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 pub use error::GltfError;
 
 use super::{
     error::BakeError,
+    files,
     images::Images,
     model::{MaterialLibrary, Model},
 };
@@ -34,7 +35,7 @@ const KNOWN_EXTENSIONS: [&str; 2] = ["KHR_texture_transform", "KHR_mesh_quantiza
 /// # Errors
 /// [`BakeError::Read`] or [`BakeError::Gltf`].
 pub fn read_file(path: &Path, images: Images) -> Result<Model, BakeError> {
-    let bytes = fs::read(path).map_err(|source| BakeError::Read { path: path.into(), source })?;
+    let bytes = files::read(path).map_err(|source| BakeError::Read { path: path.into(), source })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     read(&bytes, Some(folder), images).map_err(|source| BakeError::Gltf { path: path.into(), source })
 }
@@ -59,11 +60,12 @@ pub fn read(bytes: &[u8], folder: Option<&Path>, images: Images) -> Result<Model
         textures: document.textures.clone(),
         samplers: document.samplers.clone(),
         images: match images {
-            Images::Load => images::read(&container)?,
+            Images::Load => images::read(&container, &mut model.warnings)?,
             Images::Skip => Vec::new(),
         },
         extensions_used: document.extensions_used.clone(),
         extensions_required: document.extensions_required.clone(),
     };
+    model.files = container.files();
     Ok(model)
 }

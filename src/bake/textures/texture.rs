@@ -60,6 +60,12 @@ impl Texture {
         self.levels.first().map_or(UVec2::ONE, |level| level.size)
     }
 
+    /// The mean of all its texels.
+    pub fn mean(&self) -> Vec4 {
+        let texel = self.levels.last().and_then(|level| level.texels.first());
+        texel.map_or(Vec4::ZERO, |&texel| self.linear(texel))
+    }
+
     /// Half as large: each texel the mean of four, as light. `None` for a single texel.
     fn half(&self, level: &Level) -> Option<Level> {
         if level.size == UVec2::ONE {
