@@ -1,5 +1,7 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
+use std::sync::Arc;
+
 use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
 
@@ -95,8 +97,8 @@ pub struct Image {
     pub name: Option<String>,
     /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
     pub mime_type: String,
-    /// Bytes of the encoded image.
-    pub bytes: Vec<u8>,
+    /// Bytes of the encoded image. Images that share them in the file share them here.
+    pub bytes: Arc<[u8]>,
     /// Extensions and extras of the image.
     pub rest: serde_json::Map<String, Value>,
 }

@@ -1,26 +1,41 @@
 //! Reads texture images as they are stored.
 
+use std::{collections::BTreeMap, sync::Arc};
+
 use super::{GltfError, container::Container};
 use crate::bake::model::Image;
 
-/// Reads all images of a file.
+/// Bytes of an image, and its media type if it is a data URI.
+type Stored = (Arc<[u8]>, Option<String>);
+
+/// Reads all images of a file. Those with the same buffer view or URI share their bytes, so a file of many images takes
+/// no more memory than there is data.
 pub fn read(container: &Container) -> Result<Vec<Image>, GltfError> {
-    container
-        .document
-        .images
-        .iter()
-        .enumerate()
-        .map(|(i, image)| {
-            let what = format!("image {i}");
-            let (bytes, media) = match (&image.uri, image.buffer_view) {
-                (_, Some(view)) => (container.view(view, &what)?.to_vec(), None),
-                (Some(uri), None) => container.load_uri(uri, &what)?,
-                (None, None) => (Vec::new(), None),
-            };
-            let mime_type = image.mime_type.clone().or(media).unwrap_or_else(|| sniff(&bytes).into());
-            Ok(Image { name: image.name.clone(), mime_type, bytes, rest: image.rest.clone() })
-        })
-        .collect()
+    let mut views: BTreeMap<usize, Arc<[u8]>> = BTreeMap::new();
+    let mut uris: BTreeMap<&str, Stored> = BTreeMap::new();
+    let mut images = Vec::with_capacity(container.document.images.len());
+    for (i, image) in container.document.images.iter().enumerate() {
+        let what = format!("image {i}");
+        let (bytes, media) = match (&image.uri, image.buffer_view) {
+            (_, Some(view)) => {
+                if !views.contains_key(&view) {
+                    views.insert(view, container.view(view, &what)?.into());
+                }
+                (views.get(&view).cloned().unwrap_or_default(), None)
+            }
+            (Some(uri), None) => {
+                if !uris.contains_key(uri.as_str()) {
+                    let (bytes, media) = container.load_uri(uri, &what)?;
+                    uris.insert(uri, (bytes.into(), media));
+                }
+                uris.get(uri.as_str()).cloned().unwrap_or_default()
+            }
+            (None, None) => Stored::default(),
+        };
+        let mime_type = image.mime_type.clone().or(media).unwrap_or_else(|| sniff(&bytes).into());
+        images.push(Image { name: image.name.clone(), mime_type, bytes, rest: image.rest.clone() });
+    }
+    Ok(images)
 }
 
 /// Media type by the first bytes.
