@@ -1,6 +1,6 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use bevy_math::{DVec3, Vec3};
 use serde_json::Value;
@@ -100,8 +100,8 @@ pub struct Image {
     pub name: Option<String>,
     /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
     pub mime_type: String,
-    /// Bytes of the encoded image; empty if they cannot be read.
-    pub bytes: Vec<u8>,
+    /// Bytes of the encoded image; empty if they cannot be read. Images that share them in the file share them here.
+    pub bytes: Arc<[u8]>,
     /// Extensions and extras of the image, and its `uri` if its bytes cannot be read.
     pub rest: serde_json::Map<String, Value>,
 }

@@ -1,36 +1,56 @@
 //! Reads texture images as they are stored.
 
+use std::{collections::BTreeMap, sync::Arc};
+
 use super::{GltfError, container::Container};
 use crate::bake::{media::media_type, model::Image, warning::BakeWarning};
 
-/// Reads all images of a file. Those that are files of their own and cannot be read stay references.
+/// Bytes of an image, and its media type if it is a data URI; `None` if they cannot be read.
+type Stored = Option<(Arc<[u8]>, Option<String>)>;
+
+/// Reads all images of a file. Those with the same buffer view or URI share their bytes, so a file of many images takes
+/// no more memory than there is data. Those that are files of their own and cannot be read stay references.
 pub fn read(container: &Container, warnings: &mut Vec<BakeWarning>) -> Result<Vec<Image>, GltfError> {
-    let mut unreadable = (0, None);
-    let mut images = Vec::new();
+    let mut views: BTreeMap<usize, Arc<[u8]>> = BTreeMap::new();
+    let mut uris: BTreeMap<&str, Stored> = BTreeMap::new();
+    let mut unreadable: Vec<(String, String)> = Vec::new();
+    let mut images = Vec::with_capacity(container.document.images.len());
     for (i, image) in container.document.images.iter().enumerate() {
         let what = format!("image {i}");
         let mut rest = image.rest.clone();
         let (bytes, media) = match (&image.uri, image.buffer_view) {
-            (_, Some(view)) => (container.view(view, &what)?.to_vec(), None),
-            (Some(uri), None) => match container.load_uri(uri, &what) {
-                Ok(found) => found,
-                Err(GltfError::External { uri: first, cause, .. }) => {
-                    unreadable.0 += 1;
-                    unreadable.1.get_or_insert((first, cause));
-                    rest.insert("uri".into(), uri.clone().into());
-                    (Vec::new(), None)
+            (_, Some(view)) => {
+                if !views.contains_key(&view) {
+                    views.insert(view, container.view(view, &what)?.into());
                 }
-                Err(other) => return Err(other),
-            },
-            (None, None) => (Vec::new(), None),
+                (views.get(&view).cloned().unwrap_or_default(), None)
+            }
+            (Some(uri), None) => {
+                if !uris.contains_key(uri.as_str()) {
+                    let stored = match container.load_uri(uri, &what) {
+                        Ok((bytes, media)) => Some((bytes.into(), media)),
+                        Err(GltfError::External { uri, cause, .. }) => {
+                            unreadable.push((uri, cause));
+                            None
+                        }
+                        Err(other) => return Err(other),
+                    };
+                    uris.insert(uri, stored);
+                }
+                uris.get(uri.as_str()).cloned().flatten().unwrap_or_else(|| {
+                    rest.insert("uri".into(), uri.clone().into());
+                    Default::default()
+                })
+            }
+            (None, None) => Default::default(),
         };
         // Declarations are wrong now and then; what is not known by its bytes may be of an extension.
         let declared = || image.mime_type.clone().or(media).unwrap_or_else(|| "image/png".into());
         let mime_type = media_type(&bytes).map_or_else(declared, str::to_owned);
         images.push(Image { name: image.name.clone(), mime_type, bytes, rest });
     }
-    if let (count, Some((first, cause))) = unreadable {
-        warnings.push(BakeWarning::ImagesUnreadable { count, first, cause });
+    if let Some((first, cause)) = unreadable.first().cloned() {
+        warnings.push(BakeWarning::ImagesUnreadable { count: unreadable.len(), first, cause });
     }
     Ok(images)
 }

@@ -258,7 +258,7 @@ fn read_image(path: &Path) -> Result<Image, String> {
     let mime_type = media_type(&bytes).filter(|media| matches!(*media, "image/png" | "image/jpeg"));
     let mime_type = mime_type.ok_or("it is neither PNG nor JPEG; convert it")?.to_owned();
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    Ok(Image { name, mime_type, bytes, ..Image::default() })
+    Ok(Image { name, mime_type, bytes: bytes.into(), ..Image::default() })
 }
 
 /// Whether an image holds heights rather than normals, as both are found behind `map_Bump`. Heights are grey; normals
@@ -346,7 +346,7 @@ mod tests {
         assert!(model.warnings.is_empty(), "{:?}", model.warnings);
         let material = &model.materials.materials[0];
         assert_eq!(model.materials.images.len(), 2);
-        assert_eq!(model.materials.images[0].bytes, red);
+        assert_eq!(*model.materials.images[0].bytes, red);
         let map = &material["pbrMetallicRoughness"]["baseColorTexture"];
         // 1 - v = 1 - 4 (1 - v'), so v = 4 v' + (1 - 4).
         let moved = json!({ "KHR_texture_transform": { "offset": [0.0, -3.0], "scale": [2.0, 4.0] } });

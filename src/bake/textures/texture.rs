@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn jpeg_images_are_read() {
         let bytes = STANDARD.decode(JPEG).expect("base64");
-        let image = Image { mime_type: "image/jpeg".into(), bytes, ..Image::default() };
+        let image = Image { mime_type: "image/jpeg".into(), bytes: bytes.into(), ..Image::default() };
         let texture = Texture::decode(&image, true).expect("an image");
         assert_eq!(texture.size(), UVec2::new(16, 8));
         let texel = |x: usize| texture.levels[0].texels[4 * 16 + x];

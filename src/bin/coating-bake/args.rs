@@ -172,6 +172,7 @@ impl Args {
                 rain: self.rain,
                 sun: self.sun,
             },
+            exclude: Vec::new(),
         })
     }
 }
