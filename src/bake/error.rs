@@ -79,6 +79,14 @@ pub enum BakeError {
         /// Name of the input.
         origin: String,
     },
+    /// A file to be written is one that is read, or another one that is written.
+    #[error("{}: is the same file as {}, which is needed too; choose another name", path.display(), other.display())]
+    Overlap {
+        /// The file to be written.
+        path: PathBuf,
+        /// Path by which it is needed as well.
+        other: PathBuf,
+    },
     /// A file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {

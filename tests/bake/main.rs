@@ -3,7 +3,10 @@
 mod tool;
 
 mod figures;
+mod files;
 mod model;
 #[cfg(feature = "render")]
 mod picture;
+mod safety;
+mod several;
 mod table1;

@@ -14,7 +14,7 @@ use crate::bake::{
     images::Images,
     media::media_type,
     model::{Image, MaterialLibrary, Model},
-    textures::Texture,
+    textures::{MAX_TEXELS, Texture},
     warning::BakeWarning,
 };
 
@@ -264,7 +264,7 @@ fn read_image(path: &Path) -> Result<Image, String> {
 /// Whether an image holds heights rather than normals, as both are found behind `map_Bump`. Heights are grey; normals
 /// point outward on the whole.
 fn holds_heights(folder: &Path, file: &str) -> bool {
-    let mean = || Some(Texture::decode(&read_image(&locate(folder, file)?).ok()?, false).ok()?.mean());
+    let mean = || Some(Texture::decode(&read_image(&locate(folder, file)?).ok()?, false, MAX_TEXELS).ok()?.mean());
     mean().is_some_and(|mean| mean.z < 0.7 || (mean.x - 0.5).abs() > 0.2 || (mean.y - 0.5).abs() > 0.2)
 }
 

@@ -51,7 +51,7 @@ use sheet::Stains;
 pub use encode::Encoded;
 pub use finish::Textures;
 pub use kept::{move_to_second, sets as texture_sets, without_baked};
-pub use texture::Texture;
+pub use texture::{MAX_TEXELS, Texture};
 
 /// A mesh primitive to be written.
 pub struct Primitive<'a> {
