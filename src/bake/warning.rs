@@ -2,8 +2,8 @@
 
 use crate::surface::{BuildError, BuildWarning};
 
-/// Something of a model that was left out, changed or put right. Its text begins with the name of the mesh if it is about
-/// one.
+/// Something of a model that was left out, changed or put right. Its text begins with the name of the mesh if it is
+/// about one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BakeWarning {

@@ -159,7 +159,7 @@ fn byte_order_marks_are_skipped() {
     }
 }
 
-/// A line break in a name would tear a line of the output in two, a code after the escape character colour what follows.
+/// A line break in a name would tear a line of the output in two, an escape code colour what follows.
 #[test]
 fn odd_names_are_escaped_in_the_terminal() {
     let folder = folder();

@@ -9,8 +9,8 @@ const THINNEST: f64 = 1e-6;
 /// Polygons of more corners are not tried as fans around each of them, which takes time with the square.
 const MOST_FANS: usize = 8;
 
-/// Returns triangles of a polygon as indices of its corners, wound as it is. Corners need not lie in one plane; they are
-/// looked at along the normal of the plane that fits best.
+/// Returns triangles of a polygon as indices of its corners, wound as it is. Corners need not lie in one plane; they
+/// are looked at along the normal of the plane that fits best.
 ///
 /// A fan around one corner where that covers the polygon and nothing else, around the first corner if possible: each
 /// point inside is covered as often as the polygon runs around it, so triangles that all lie on the polygon's side
@@ -35,7 +35,8 @@ pub fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
     if triangles.is_empty() {
         return fan(0).collect();
     }
-    // Ear clipping may wind the other way round, and leaves out corners on straight sides, where neighbours have theirs.
+    // Ear clipping may wind the other way round, and leaves out corners on straight sides, where neighbours have
+    // vertices.
     for triangle in &mut triangles {
         if area(triangle.map(|i| flat[i])) < 0.0 {
             triangle.swap(1, 2);
@@ -45,8 +46,8 @@ pub fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// Corners as seen along the normal of the polygon's area, which it runs around counter-clockwise; `None` if it has none
-/// or a corner is nowhere.
+/// Corners as seen along the normal of the polygon's area, which it runs around counter-clockwise; `None` if it has
+/// none or a corner is nowhere.
 fn flattened(corners: &[DVec3]) -> Option<Vec<DVec2>> {
     let origin = corners.first().copied().filter(|_| corners.iter().all(|p| p.is_finite()))?;
     let spokes: Vec<DVec3> = corners.iter().map(|&p| p - origin).collect();
@@ -164,7 +165,8 @@ mod tests {
             let whole: DVec3 = corners.windows(2).map(|p| vector(DVec3::ZERO, p[0], p[1])).sum::<DVec3>()
                 + vector(DVec3::ZERO, corners[corners.len() - 1], corners[0]);
             let triangles = triangulate(&corners);
-            let parts: Vec<DVec3> = triangles.iter().map(|&[a, b, c]| vector(corners[a], corners[b], corners[c])).collect();
+            let part = |&[a, b, c]: &[usize; 3]| vector(corners[a], corners[b], corners[c]);
+            let parts: Vec<DVec3> = triangles.iter().map(part).collect();
             prop_assert!((parts.iter().copied().sum::<DVec3>() - whole).length() < 1e-9 * whole.length());
             let sum: f64 = parts.iter().map(|p| p.length()).sum();
             prop_assert!((sum - whole.length()).abs() < 1e-9 * sum, "{} {}", sum, whole.length());

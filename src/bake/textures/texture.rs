@@ -43,8 +43,8 @@ pub enum Wrap {
 }
 
 impl Texture {
-    /// Decodes a PNG or JPEG image of at most so many texels. How large it is and whether it can be whole is known before
-    /// it is decoded.
+    /// Decodes a PNG or JPEG image of at most so many texels. How large it is and whether it can be whole is known
+    /// before it is decoded.
     ///
     /// # Errors
     /// A message that says why not.

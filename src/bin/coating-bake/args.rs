@@ -33,10 +33,10 @@ use crate::{
     name = "coating-bake",
     version,
     after_help = "\
-Several inputs, or folders of models, go to --out-dir and --stats-dir under their own names; each comes out as it would \
-alone, and one that fails does not keep the others.
-Exit code: 0, 1 with one line for each bad input, 2 on bad usage, 130 if interrupted. Output files are written whole or \
-not at all, and never over a file that is read.
+Several inputs, or folders of models, go to --out-dir and --stats-dir under their own names; each comes out as it \
+would alone, and one that fails does not keep the others.
+Exit code: 0, 1 with one line for each bad input, 2 on bad usage, 130 if interrupted. Output files are written whole \
+or not at all, and never over a file that is read.
 Meshes that have no triangle mesh, or are all slivers, are left out; skinned and morphed ones are aged in their bind \
 pose. Digest: BLAKE3 over the films in order, fields as documented at FilmState::digest_into."
 )]
