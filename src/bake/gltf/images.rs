@@ -19,12 +19,14 @@ pub fn read(container: &Container, warnings: &mut Vec<BakeWarning>) -> Result<Ve
         let what = format!("image {i}");
         let mut rest = image.rest.clone();
         let (bytes, media) = match (&image.uri, image.buffer_view) {
-            (_, Some(view)) => {
-                if !views.contains_key(&view) {
-                    views.insert(view, container.view(view, &what)?.into());
+            (_, Some(view)) => match views.get(&view) {
+                Some(known) => (known.clone(), None),
+                None => {
+                    let bytes: Arc<[u8]> = container.view(view, &what)?.into();
+                    views.insert(view, bytes.clone());
+                    (bytes, None)
                 }
-                (views.get(&view).cloned().unwrap_or_default(), None)
-            }
+            },
             (Some(uri), None) => {
                 if !uris.contains_key(uri.as_str()) {
                     let stored = match container.load_uri(uri, &what) {

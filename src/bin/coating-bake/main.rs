@@ -52,7 +52,7 @@ fn run_all(args: &Args, stopwatch: Stopwatch) -> Result<bool, Failure> {
     let options = args.options()?;
     let jobs = jobs::list(args)?;
     if !jobs::is_batch(args) {
-        jobs.iter().try_for_each(|job| run(args, job, &options, stopwatch.clone()))?;
+        jobs.iter().try_for_each(|job| run(args, job, &options, stopwatch))?;
         return Ok(true);
     }
     let mut failed = 0;
