@@ -154,7 +154,7 @@ impl Reader {
         let (uvs, colors) = (!surface.uvs.is_empty(), !surface.colors.is_empty());
         let slots = vec![Slot { material, uvs, colors, ..Slot::default() }];
         if !surface.triangles.is_empty() {
-            model.meshes.push(ModelMesh { name, surface, origin, slots, film: None });
+            model.meshes.push(ModelMesh { name, surface, origin, slots, ..ModelMesh::default() });
         }
         model
     }

@@ -60,6 +60,11 @@ impl Texture {
         self.levels.first().map_or(UVec2::ONE, |level| level.size)
     }
 
+    /// Texels as they are stored, row by row from the top.
+    pub fn texels(&self) -> &[[u8; 4]] {
+        self.levels.first().map_or(&[], |level| &level.texels)
+    }
+
     /// Half as large: each texel the mean of four, as light. `None` for a single texel.
     fn half(&self, level: &Level) -> Option<Level> {
         if level.size == UVec2::ONE {
