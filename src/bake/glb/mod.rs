@@ -1,7 +1,7 @@
 //! Writes an aged model as binary glTF 2.0.
 //!
-//! It begins with the document that the model was read from. Each coated mesh is replaced on its node, in the node's own
-//! space: the prop's own primitives become film, and primer on the backs of flakes and rusted metal beneath follow.
+//! It begins with the document that the model was read from. Each coated mesh is replaced on its node, in the node's
+//! own space: the prop's own primitives become film, and primer on the backs of flakes and rusted metal beneath follow.
 //! Everything else stays, at its index. Props without a document get a node each. The appearance is made by
 //! [`crate::appearance`], as in a running game; stains come into it by [`super::textures`].
 

@@ -4,8 +4,8 @@ use std::{cell::Cell, cell::RefCell, collections::BTreeMap, rc::Rc};
 
 use super::{GltfError, container::Container, document::lookup};
 
-/// Elements that all accessors together may have for each byte of the buffers. One takes a byte at least; accessors that
-/// share bytes are common, but not that many of them.
+/// Elements that all accessors together may have for each byte of the buffers. One takes a byte at least; accessors
+/// that share bytes are common, but not that many of them.
 const ELEMENTS_A_BYTE: u64 = 4;
 /// Elements that they may have in any case.
 const LEAST_ELEMENTS: u64 = 1 << 16;

@@ -1,8 +1,8 @@
 //! Reads glTF 2.0: .glb and .gltf, with buffers in the file, beside it or in data URIs.
 //!
 //! All that is read is checked: nothing in a file can make this panic. The document is kept as the JSON it is, so that
-//! what ageing does not change, and extensions nobody here knows, survive. The scene's meshes are moved into scene space.
-//! Skinned and morphed meshes are taken in their bind pose, with a warning.
+//! what ageing does not change, and extensions nobody here knows, survive. The scene's meshes are moved into scene
+//! space. Skinned and morphed meshes are taken in their bind pose, with a warning.
 
 mod accessor;
 mod cache;
