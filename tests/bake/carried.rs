@@ -641,3 +641,24 @@ fn a_truss_of_many_beams_ages_in_time() {
     // Some five seconds of one core, and room for loaded machines. Large textures for each would take ten minutes.
     assert!(start.elapsed().as_secs() < 120, "{:?}", start.elapsed());
 }
+
+/// Every small case of the project's data, if it is there.
+#[test]
+fn cases_from_elsewhere_are_valid_once_aged() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/cases");
+    let Ok(entries) = fs::read_dir(&folder) else {
+        eprintln!("skipped: {} is not there", folder.display());
+        return;
+    };
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
+    files.sort();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "glb")) {
+        if fs::metadata(file).expect("a file").len() > 250_000 {
+            continue;
+        }
+        for stains in [SMALL, StainOutput::None] {
+            println!("{}", file.display());
+            aged(Input::File(file.clone()).read(0, Images::Load).expect("a model"), &quick(0.6), stains);
+        }
+    }
+}

@@ -2,11 +2,15 @@
 
 use std::{fs, path::Path};
 
-use crate::tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares};
+use crate::{
+    strict::Glb,
+    tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares},
+};
 
-/// The aged model in the `gltf` crate, which validates what it reads.
+/// The aged model, checked strictly, in the `gltf` crate, which validates what it reads too.
 fn read_back(path: &Path) -> (gltf::Document, Vec<u8>) {
     let bytes = fs::read(path).expect("a model");
+    Glb::checked(&bytes);
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).expect("valid glTF");
     (document, blob.expect("a binary chunk"))
 }
