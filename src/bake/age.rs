@@ -47,7 +47,7 @@ pub fn bake(
     let input = InputStats::of(&model.meshes);
     let mut model = model;
     let left = leave_alone(&mut model, &options.exclude)?;
-    let Model { origin, copyright, meshes, materials, mut warnings, carried } = model;
+    let Model { origin, copyright, meshes, materials, mut warnings, carried, .. } = model;
     let coated = stopwatch.build(|| coat(&origin, meshes, options))?;
     let Coated { props, mut films, warnings: built } = coated;
     warnings.extend(built);

@@ -1,6 +1,6 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use bevy_math::{DMat4, DVec3, Quat, Vec3};
 use serde_json::Value;
@@ -24,6 +24,9 @@ pub struct Model {
     pub warnings: Vec<BakeWarning>,
     /// Document that the model was read from, for all that ageing does not change.
     pub carried: Carried,
+    /// Files that the model is made of, as far as it comes from files: outputs must not take their places
+    /// ([`StagedFiles::guard`](super::StagedFiles::guard)).
+    pub files: Vec<PathBuf>,
 }
 
 /// Mesh of one node: one connected prop to the paint.
@@ -129,9 +132,9 @@ pub struct Image {
     pub name: Option<String>,
     /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
     pub mime_type: String,
-    /// Bytes of the encoded image. Images that share them in the file share them here.
+    /// Bytes of the encoded image; empty if they cannot be read. Images that share them in the file share them here.
     pub bytes: Arc<[u8]>,
-    /// Extensions and extras of the image.
+    /// Extensions and extras of the image, and its `uri` if its bytes cannot be read.
     pub rest: serde_json::Map<String, Value>,
 }
 

@@ -155,6 +155,52 @@ pub enum BakeWarning {
         /// Texels along a side of its textures.
         texels: u32,
     },
+    /// A .mtl file cannot be read.
+    #[error("{}: cannot be read: {}; its materials are plain paint", Printable(file), Printable(cause))]
+    MaterialFile {
+        /// Name of the file, as the model has it.
+        file: String,
+        /// Why it cannot be read.
+        cause: String,
+    },
+    /// Statements of a .mtl file were left out.
+    #[error("{file}: {count} statements cannot be read and are left out, the first in line {line}: {cause}")]
+    MaterialStatements {
+        /// Name of the file, as the model has it.
+        file: String,
+        /// Number of statements.
+        count: usize,
+        /// Number of the first one's line, from 1.
+        line: usize,
+        /// Fault of the first one.
+        cause: String,
+    },
+    /// Materials that faces of an .obj file have are in none of its .mtl files.
+    #[error("{count} materials are defined in no .mtl file and are plain paint; the first is {first:?}")]
+    MaterialsUndefined {
+        /// Number of materials.
+        count: usize,
+        /// Name of the first one.
+        first: String,
+    },
+    /// Images that are files of their own cannot be read.
+    #[error("{count} images cannot be read and do not show; the first is {first:?}: {cause}")]
+    ImagesUnreadable {
+        /// Number of images.
+        count: usize,
+        /// Path of the first one, as the model has it.
+        first: String,
+        /// Why that cannot be read.
+        cause: String,
+    },
+    /// Images of a .mtl file were left out, since glTF has no place for them or they do not fit there.
+    #[error("{count} images of materials have no place in glTF and are left out: {kinds}")]
+    MapsLeftOut {
+        /// Number of images.
+        count: usize,
+        /// Names of the statements, each once.
+        kinds: String,
+    },
     /// The same for several meshes.
     #[error("{first} (and the same for {more} more)")]
     Repeated {

@@ -468,7 +468,8 @@ fn what_is_excluded_stays() {
 
 #[test]
 fn excluded_parts_of_a_model_without_a_document_are_written_too() {
-    let mut model = Model::from_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square").expect("a model");
+    let obj = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let mut model = Model::from_obj(obj, "square", None, Images::Load).expect("a model");
     let mut glass = model.meshes[0].clone();
     glass.name = "pane".into();
     model.meshes.push(glass);

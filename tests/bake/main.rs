@@ -6,8 +6,11 @@ mod tool;
 
 mod carried;
 mod figures;
+mod files;
 mod masks;
 mod model;
 #[cfg(feature = "render")]
 mod picture;
+mod safety;
+mod several;
 mod table1;

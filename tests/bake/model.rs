@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use crate::{
     strict::Glb,
-    tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares},
+    tool::{QUICK, TEXTURE, baked, folder, grey_png, number, stats, write_two_squares},
 };
 
 /// The aged model, checked strictly, in the `gltf` crate, which validates what it reads too.
@@ -170,15 +170,6 @@ fn without_stains_materials_are_what_they_were() {
     assert_eq!(names, ["paint", "primer", "rusted metal"]);
     let factor = document.materials().next().map(|paint| paint.pbr_metallic_roughness().base_color_factor());
     assert_eq!(factor, Some([0.55, 0.58, 0.6, 1.0]));
-}
-
-/// A grey image of 4 by 4 texels.
-fn grey_png() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 4, 4);
-    encoder.set_color(png::ColorType::Grayscale);
-    encoder.write_header().and_then(|mut writer| writer.write_image_data(&[190; 16])).expect("a PNG");
-    bytes
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn names(extensions: &Map<String, Value>) -> impl Iterator<Item = &str> {
 
 /// Whether an attribute of a mesh has a component type that only the extension allows.
 fn is_quantized(root: &Map<String, Value>) -> bool {
-    let accessor = |index: &Value| Some(root.get("accessors")?.get(usize::try_from(index.as_u64()?).ok()?)?);
+    let accessor = |index: &Value| root.get("accessors")?.get(usize::try_from(index.as_u64()?).ok()?);
     let meshes = root.get("meshes").and_then(Value::as_array).into_iter().flatten();
     let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().into_iter().flatten());
     let mut attributes = primitives.flat_map(|primitive| primitive["attributes"].as_object().into_iter().flatten());

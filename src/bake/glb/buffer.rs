@@ -67,7 +67,9 @@ impl BinaryChunk {
                 fields.insert("byteOffset".into(), (at + start - first).into());
                 // The bytes are there as they are, so how else they could be had does not matter.
                 let extensions = fields.get_mut("extensions").and_then(Value::as_object_mut);
-                extensions.map(|extensions| extensions.retain(|name, _| !name.ends_with("_meshopt_compression")));
+                if let Some(extensions) = extensions {
+                    extensions.retain(|name, _| !name.ends_with("_meshopt_compression"));
+                }
             }
             chunk.views.put(i, view);
         }

@@ -236,10 +236,13 @@ impl<'a> Materials<'a> {
                 if let Some(name) = &own.name {
                     fields.insert("name".into(), name.clone().into());
                 }
-                let bytes = if own.bytes.is_empty() { &EMPTY_IMAGE.into() } else { &own.bytes };
-                let mime_type = if own.bytes.is_empty() { "image/png" } else { own.mime_type.as_str() };
-                fields.insert("mimeType".into(), mime_type.into());
-                fields.insert("bufferView".into(), chunk.own_image(bytes).into());
+                // One that cannot be read stays where it is.
+                if !fields.contains_key("uri") {
+                    let bytes = if own.bytes.is_empty() { &EMPTY_IMAGE.into() } else { &own.bytes };
+                    let mime_type = if own.bytes.is_empty() { "image/png" } else { own.mime_type.as_str() };
+                    fields.insert("mimeType".into(), mime_type.into());
+                    fields.insert("bufferView".into(), chunk.own_image(bytes).into());
+                }
             }
             filled.push(Value::from(fields));
         }

@@ -78,7 +78,7 @@ pub fn aged_glb(baked: &mut Baked, stains: StainOutput) -> Result<Vec<u8>, BakeE
             let part = space.map_or(Cow::Borrowed(&*primitive.part), |space| space.part(&primitive.part));
             rebuilt.add(primitive, chunk.primitive(&part, primitive.has, material));
         }
-        found.extend(rebuilt.warnings.drain(..));
+        found.append(&mut rebuilt.warnings);
         let name = &prop.name;
         match (home, spot) {
             (Home::Node, Some(Spot { node, mesh })) => {

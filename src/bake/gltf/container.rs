@@ -2,8 +2,7 @@
 
 use std::{
     borrow::Cow,
-    fs,
-    path::{Component, Path},
+    path::{Path, PathBuf},
 };
 
 use base64::{
@@ -18,7 +17,7 @@ use super::{
     document::{Document, lookup},
     extensions,
 };
-use crate::bake::carried::Carried;
+use crate::bake::{carried::Carried, files};
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -106,17 +105,27 @@ impl<'a> Container<'a> {
             let media = media.split(';').next().filter(|media| !media.is_empty());
             return Ok((bytes, media.map(str::to_owned)));
         }
-        let relative = String::from_utf8(percent_decode(uri)).map_err(|_| fail("it is no UTF-8".into()))?;
-        let relative = Path::new(&relative);
-        // A model may name files beside it and below, no others: no absolute paths, no `..`, no other schemes.
-        let inside = relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-        if !inside || uri.contains("://") {
-            return Err(fail("it does not lie beside the file".into()));
-        }
+        let relative = relative_path(uri).ok_or_else(|| fail("it is no relative path".into()))?;
         let folder = self.folder.ok_or_else(|| fail("it is a file of its own, and the model is none".into()))?;
-        let bytes = fs::read(folder.join(relative)).map_err(|error| fail(error.to_string()))?;
+        let path = folder.join(relative);
+        let bytes = files::read(&path).map_err(|error| fail(error.to_string()))?;
         Ok((bytes, None))
     }
+
+    /// Files that the document refers to.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let Some(folder) = self.folder else { return Vec::new() };
+        let buffers = self.document.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+        let images = self.document.images.iter().filter_map(|image| image.uri.as_deref());
+        buffers.chain(images).filter_map(relative_path).map(|path| folder.join(path)).collect()
+    }
+}
+
+/// The path of a file of its own; `None` for other addresses.
+fn relative_path(uri: &str) -> Option<PathBuf> {
+    // Paths have no scheme.
+    let is_path = !uri.contains("://") && !uri.starts_with("data:");
+    String::from_utf8(percent_decode(uri)).ok().filter(|_| is_path).and_then(|path| files::relative(&path))
 }
 
 /// JSON and binary chunk of a .glb.

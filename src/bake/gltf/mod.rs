@@ -1,4 +1,4 @@
-//! Reads glTF 2.0: .glb and .gltf, with buffers in the file, beside it or in data URIs.
+//! Reads glTF 2.0: .glb and .gltf, with buffers in the file, at a relative path or in data URIs.
 //!
 //! All that is read is checked: nothing in a file can make this panic. The document is kept as the JSON it is, so that
 //! what ageing does not change, and extensions nobody here knows, survive. The scene's meshes are moved into scene
@@ -20,12 +20,13 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 pub use error::GltfError;
 
 use super::{
     error::BakeError,
+    files,
     images::Images,
     model::{MaterialLibrary, Model},
     warning::BakeWarning,
@@ -37,7 +38,7 @@ use container::Container;
 /// # Errors
 /// [`BakeError::Read`] or [`BakeError::Gltf`].
 pub fn read_file(path: &Path, images: Images) -> Result<Model, BakeError> {
-    let bytes = fs::read(path).map_err(|source| BakeError::Read { path: path.into(), source })?;
+    let bytes = files::read(path).map_err(|source| BakeError::Read { path: path.into(), source })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     read(&bytes, Some(folder), images).map_err(|source| BakeError::Gltf { path: path.into(), source })
 }
@@ -63,8 +64,9 @@ pub fn read(bytes: &[u8], folder: Option<&Path>, images: Images) -> Result<Model
     if images == Images::Load {
         // What is not written need not be sound.
         references::check(&container)?;
-        model.materials.images = images::read(&container)?;
+        model.materials.images = images::read(&container, &mut model.warnings)?;
     }
+    model.files = container.files();
     model.carried = container.into_carried();
     Ok(model)
 }

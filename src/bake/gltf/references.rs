@@ -108,7 +108,7 @@ fn in_range(from: &str, kind: &'static str, value: &Value, count: usize) -> Resu
 /// `images` is the number of images. Returns the number of references that were removed.
 pub fn drop_dangling(library: &mut MaterialLibrary, images: usize) -> usize {
     let MaterialLibrary { materials, textures, samplers, .. } = library;
-    let dangling = |value: &Value, count: usize| !value.as_u64().is_some_and(|index| index < count as u64);
+    let dangling = |value: &Value, count: usize| value.as_u64().is_none_or(|index| index >= count as u64);
     let mut dropped = 0;
     for material in materials.iter_mut() {
         retain(material, &mut |info| {

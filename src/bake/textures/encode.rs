@@ -2,7 +2,10 @@
 
 use bevy_math::UVec2;
 
-use super::{sheet::Sheet, texture::Texture};
+use super::{
+    sheet::Sheet,
+    texture::{MAX_TEXELS, Texture},
+};
 use crate::bake::{model::Image, parallel};
 
 /// A set of textures, encoded.
@@ -36,8 +39,8 @@ impl Encoded {
 
 /// A white image with the alpha of another; `None` if that cannot be decoded.
 pub fn white_with_alpha(image: &Image) -> Option<Vec<u8>> {
-    let texture = Texture::decode(image, true).ok()?;
-    let texels: Vec<u8> = texture.texels().iter().flat_map(|&[_, _, _, alpha]| [255, alpha]).collect();
+    let texture = Texture::decode(image, true, MAX_TEXELS).ok()?;
+    let texels: Vec<u8> = texture.pixels().iter().flat_map(|&[_, _, _, alpha]| [255, alpha]).collect();
     let UVec2 { x, y } = texture.size();
     Some(png_of([x, y], png::ColorType::GrayscaleAlpha, &texels))
 }

@@ -53,6 +53,7 @@ pub use bare::Bare;
 pub use encode::{Encoded, white_with_alpha};
 pub use finish::Textures;
 pub use kept::{move_to_second, without_baked};
+pub use texture::{MAX_TEXELS, Texture};
 
 /// A mesh primitive to be written.
 pub struct Primitive<'a> {
