@@ -8,7 +8,10 @@ use super::{
     part::MeshPart,
     wedges::Wedges,
 };
-use crate::{film::Topology, fracture::FilmForces};
+use crate::{
+    film::{HalfEdgeId, Topology},
+    fracture::FilmForces,
+};
 
 /// Entry of the lookup for a corner that has no back vertex yet.
 const NONE: u32 = u32::MAX;
@@ -48,6 +51,12 @@ impl Backs {
         }
         part.positions.resize(fronts.len(), [0.0; 3]);
         part.normals.resize(fronts.len(), [0.0; 3]);
+    }
+
+    /// Returns one of the front corners that a back vertex lies behind.
+    pub fn corner(&self, vertex: usize, wedges: &Wedges) -> Option<HalfEdgeId> {
+        let &(slot, front) = self.fronts.get(vertex)?;
+        wedges.corners(slot).get(front as usize).copied()
     }
 
     /// Copies the stains, rest positions and rest normals of the fronts to the backs.

@@ -50,6 +50,12 @@ pub enum BakeError {
         /// Name of the input.
         origin: String,
     },
+    /// Everything is glass or excluded.
+    #[error("{origin}: all of it is glass (alpha-blended or transmissive) or excluded, so there is nothing to age")]
+    AllLeftAlone {
+        /// Name of the input.
+        origin: String,
+    },
     /// The options are out of their ranges.
     #[error(transparent)]
     Options(#[from] OptionsError),

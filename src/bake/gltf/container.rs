@@ -10,11 +10,14 @@ use base64::{
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
 
+use serde_json::{Map, Value};
+
 use super::{
     GltfError,
     document::{Document, lookup},
+    extensions,
 };
-use crate::bake::files;
+use crate::bake::{carried::Carried, files};
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -24,6 +27,8 @@ const BINARY_CHUNK: &[u8] = b"BIN\0";
 #[derive(Debug)]
 pub struct Container<'a> {
     pub document: Document,
+    /// All of the JSON, for what ageing does not change.
+    pub root: Map<String, Value>,
     folder: Option<&'a Path>,
     buffers: Vec<Cow<'a, [u8]>>,
 }
@@ -40,7 +45,10 @@ impl<'a> Container<'a> {
         if document.asset.version.split('.').next() != Some("2") {
             return Err(GltfError::Version(document.asset.version));
         }
-        let mut container = Self { document, folder, buffers: Vec::new() };
+        // Before buffers are read: compressed files often have one that is no data.
+        extensions::check(&document.extensions_required)?;
+        let root = serde_json::from_slice(text).map_err(GltfError::Json)?;
+        let mut container = Self { document, root, folder, buffers: Vec::new() };
         for (i, buffer) in container.document.buffers.iter().enumerate() {
             let what = format!("buffer {i}");
             let bytes = match (&buffer.uri, binary) {
@@ -55,6 +63,16 @@ impl<'a> Container<'a> {
             container.buffers.push(bytes);
         }
         Ok(container)
+    }
+
+    /// The number of bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(|buffer| buffer.len() as u64).sum()
+    }
+
+    /// All of the JSON and the buffers.
+    pub fn into_carried(self) -> Carried {
+        Carried { root: self.root, buffers: self.buffers.into_iter().map(|bytes| bytes.into_owned().into()).collect() }
     }
 
     /// The bytes of a buffer view.

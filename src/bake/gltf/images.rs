@@ -1,6 +1,9 @@
 //! Reads texture images as they are stored.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::{
+    collections::{BTreeMap, btree_map::Entry},
+    sync::Arc,
+};
 
 use super::{GltfError, container::Container};
 use crate::bake::{media::media_type, model::Image, warning::BakeWarning};
@@ -19,27 +22,29 @@ pub fn read(container: &Container, warnings: &mut Vec<BakeWarning>) -> Result<Ve
         let what = format!("image {i}");
         let mut rest = image.rest.clone();
         let (bytes, media) = match (&image.uri, image.buffer_view) {
-            (_, Some(view)) => match views.get(&view) {
-                Some(known) => (known.clone(), None),
-                None => {
-                    let bytes: Arc<[u8]> = container.view(view, &what)?.into();
-                    views.insert(view, bytes.clone());
-                    (bytes, None)
-                }
-            },
+            (_, Some(view)) => {
+                let bytes = match views.entry(view) {
+                    Entry::Occupied(known) => known.get().clone(),
+                    Entry::Vacant(free) => free.insert(container.view(view, &what)?.into()).clone(),
+                };
+                (bytes, None)
+            }
             (Some(uri), None) => {
-                if !uris.contains_key(uri.as_str()) {
-                    let stored = match container.load_uri(uri, &what) {
-                        Ok((bytes, media)) => Some((bytes.into(), media)),
-                        Err(GltfError::External { uri, cause, .. }) => {
-                            unreadable.push((uri, cause));
-                            None
-                        }
-                        Err(other) => return Err(other),
-                    };
-                    uris.insert(uri, stored);
-                }
-                uris.get(uri.as_str()).cloned().flatten().unwrap_or_else(|| {
+                let stored = match uris.entry(uri) {
+                    Entry::Occupied(known) => known.get().clone(),
+                    Entry::Vacant(free) => {
+                        let stored = match container.load_uri(uri, &what) {
+                            Ok((bytes, media)) => Some((bytes.into(), media)),
+                            Err(GltfError::External { uri, cause, .. }) => {
+                                unreadable.push((uri, cause));
+                                None
+                            }
+                            Err(other) => return Err(other),
+                        };
+                        free.insert(stored).clone()
+                    }
+                };
+                stored.unwrap_or_else(|| {
                     rest.insert("uri".into(), uri.clone().into());
                     Default::default()
                 })

@@ -153,7 +153,7 @@ impl Reader {
             surface.slots = self.slots;
         }
         if !surface.triangles.is_empty() {
-            model.meshes.push(ModelMesh { name, surface, origin, slots, film: None });
+            model.meshes.push(ModelMesh { name, surface, origin, slots, ..ModelMesh::default() });
         }
         model
     }

@@ -66,6 +66,11 @@ impl Texture {
         self.levels.first().map_or(UVec2::ONE, |level| level.size)
     }
 
+    /// Texels as they are stored, row by row from the top.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        self.levels.first().map_or(&[], |level| &level.texels)
+    }
+
     /// The mean of all its texels.
     pub fn mean(&self) -> Vec4 {
         let texel = self.levels.last().and_then(|level| level.texels.first());
