@@ -9,7 +9,7 @@ use super::{
     wedges::Wedges,
 };
 use crate::{
-    film::{FaceId, Topology},
+    film::{FaceId, HalfEdgeId, Topology},
     fracture::FilmForces,
 };
 
@@ -52,6 +52,12 @@ impl Backs {
         }
         part.positions.resize(fronts.len(), [0.0; 3]);
         part.normals.resize(fronts.len(), [0.0; 3]);
+    }
+
+    /// Returns one of the front corners that a back vertex lies behind.
+    pub fn corner(&self, vertex: usize, wedges: &Wedges) -> Option<HalfEdgeId> {
+        let &(slot, front) = self.fronts.get(vertex)?;
+        wedges.corners(slot).get(front as usize).copied()
     }
 
     /// Copies the stains, rest positions and rest normals of the fronts to the backs.

@@ -7,7 +7,7 @@ use super::{
     wedges::Wedges,
 };
 use crate::{
-    film::{FilmMesh, VertexId},
+    film::{FilmMesh, HalfEdgeId, VertexId},
     fracture::FilmForces,
     stain::StainFields,
 };
@@ -24,6 +24,8 @@ pub(super) struct Metal {
     of_wedge: Vec<u32>,
     /// Original film vertex above each metal vertex.
     originals: Vec<VertexId>,
+    /// One of the corners above each metal vertex.
+    corners: Vec<HalfEdgeId>,
 }
 
 impl Metal {
@@ -37,10 +39,11 @@ impl Metal {
         attributes: &CornerAttributes,
         depth: f32,
     ) {
-        let Self { part, of_wedge, originals } = self;
+        let Self { part, of_wedge, originals, corners } = self;
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
         part.clear();
         originals.clear();
+        corners.clear();
         of_wedge.clear();
         of_wedge.resize(wedges.rest_count(), NONE);
         for f in topology.all_faces() {
@@ -55,6 +58,7 @@ impl Metal {
                     let original = topology.original(topology.origin(h));
                     let v = original.index();
                     originals.push(original);
+                    corners.push(h);
                     part.rest.push(geometry.rest_positions[v].to_array());
                     part.rest_normals.push(attributes.normals[h.index()].to_array());
                     let outwards = if face_slots.is_flipped(f) { depth } else { -depth };
@@ -66,6 +70,11 @@ impl Metal {
                 part.indices.push(*vertex);
             }
         }
+    }
+
+    /// Returns one of the corners above a metal vertex.
+    pub fn corner(&self, vertex: usize) -> Option<HalfEdgeId> {
+        self.corners.get(vertex).copied()
     }
 
     /// Writes the stains of the metal under each vertex.

@@ -32,6 +32,7 @@ mod backs;
 mod changes;
 mod corners;
 mod face_slots;
+mod in_slots;
 mod metal;
 mod moves;
 mod normals;
