@@ -116,7 +116,7 @@ pub(super) fn find_meshes(
     }
 }
 
-/// Hands changed settings, rates, pauses, qualities and shelters to the films.
+/// Hands changed settings and shelters to the films. Rate, pause and quality are read before each frame's steps.
 pub(super) fn follow_coatings(
     changed: Query<Entity, Changed<Coating>>,
     coatings: Query<&Coating>,
@@ -140,9 +140,6 @@ pub(super) fn follow_coatings(
         if !changed.contains(coated_by.0) && !from_file {
             continue;
         }
-        pace.paused = coating.paused;
-        pace.rate = coating.rate;
-        pace.quality = coating.quality;
         shelter.choose(coating.shelter);
         let settings = match &coating.settings {
             SettingsSource::Inline(settings) => Some(settings),
