@@ -25,6 +25,7 @@ mod parts;
 mod picture;
 mod settings;
 mod shelter;
+mod soak;
 mod stain_display;
 mod stains;
 #[cfg(feature = "render")]
