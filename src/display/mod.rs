@@ -31,12 +31,15 @@ use bevy::{
 pub(crate) use film_display::FilmDisplay;
 pub(crate) use film_paint::FilmPaint;
 #[cfg(feature = "render")]
-pub(crate) use material::ready::is_material_ready;
-#[cfg(feature = "render")]
 pub use material::{
     dress::CoatedMaterial,
     extension::{StainExtension, StainedMaterial},
     view::StainView,
+};
+#[cfg(feature = "render")]
+pub(crate) use material::{
+    dress::undress,
+    ready::{material_of, transparency_of},
 };
 pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 

@@ -27,6 +27,11 @@ pub(super) enum PartMaterial {
 }
 
 impl PartHandles {
+    /// Returns whether `entity` draws one of the parts.
+    pub fn contains(&self, entity: Entity) -> bool {
+        [&self.backs, &self.metal].into_iter().flatten().any(|part| part.entity == entity)
+    }
+
     /// Returns the materials that draw stains in detail.
     pub fn stained(&self) -> impl Iterator<Item = &Handle<StainedMaterial>> {
         [&self.backs, &self.metal].into_iter().flatten().filter_map(|part| match &part.material {

@@ -18,11 +18,16 @@ mod ageing;
 mod attach;
 mod budget;
 mod clock;
+mod clones;
 mod display;
+mod groups;
 #[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
+mod rebuilding;
+mod recovery;
+mod seeds;
 mod settings;
 mod shelter;
 mod soak;
