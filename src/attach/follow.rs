@@ -24,8 +24,8 @@ use crate::{
     shelter::FilmShelter,
 };
 
-/// Hands changed settings, rates, pauses, qualities and shelters to the films. New films take over what changed while
-/// they were built.
+/// Hands changed settings and shelters to the films. New films take over what changed while they were built. Rates,
+/// pauses and qualities are handed over right before the steps of a frame.
 pub(super) fn follow_coatings(
     changed: Query<Entity, Changed<Coating>>,
     coatings: Query<&Coating>,
@@ -46,9 +46,6 @@ pub(super) fn follow_coatings(
         if !changed.contains(coated_by.0) && !from_file && !pace.is_added() && !coated_by.is_changed() {
             continue;
         }
-        pace.paused = coating.paused;
-        pace.rate = coating.rate;
-        pace.quality = coating.quality;
         shelter.choose(coating.shelter);
         let settings = match &coating.settings {
             SettingsSource::Inline(settings) => Some(settings),

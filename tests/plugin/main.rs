@@ -30,6 +30,7 @@ mod recovery;
 mod seeds;
 mod settings;
 mod shelter;
+mod soak;
 mod stain_display;
 mod stains;
 #[cfg(feature = "render")]
