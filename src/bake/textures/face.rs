@@ -55,7 +55,10 @@ impl<'a> Face<'a> {
             })
         });
         // Without textures of their own they need no coordinates.
-        let bare = [(Base::Primer, appearance.backs()), (Base::Metal, appearance.metal())].map(|(base, part)| Self {
+        let slots = || 0..appearance.slot_count();
+        let backs = slots().filter_map(|slot| Some((Base::Primer, appearance.backs(slot)?)));
+        let metal = slots().filter_map(|slot| Some((Base::Metal, appearance.metal(slot)?)));
+        let bare = backs.chain(metal).map(|(base, part)| Self {
             part,
             slot: None,
             base,
