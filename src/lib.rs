@@ -147,6 +147,7 @@ pub use api::{
     diagnostics,
     error::{CoatingError, CoatingFault},
     film_pace::FilmPace,
+    limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatingPart},
     messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
     shelter::{RainShelter, Shelter},

@@ -58,16 +58,17 @@ pub struct Coating {
     pub seed: u64,
     /// Resolution of each film. Default: [`DEFAULT_TRIANGLES`] triangles.
     pub resolution: FilmResolution,
-    /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 or more and finite, default 1.
+    /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 to 1,000
+    /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1.
     pub rate: f64,
     /// Whether this prop stops ageing; [requested steps](super::clock::CoatingClock::request_steps) are still taken.
     /// Default false.
     pub paused: bool,
-    /// Age to which the film is aged in the background before the prop shows it. 0 or more and finite, default 0
-    /// (fresh).
+    /// Age to which the film is aged in the background before the prop shows it. 0 to 10
+    /// ([`MAX_START_AGE`](super::limits::MAX_START_AGE)), default 0 (fresh).
     pub start_age: f64,
-    /// Number of steps per unit of age. At least 1, default 1000. The result hardly depends on it; more steps cost
-    /// more.
+    /// Number of steps per unit of age. 1 to 100,000 ([`MAX_STEPS_PER_AGE`](super::limits::MAX_STEPS_PER_AGE)), default
+    /// 1,000. The result hardly depends on it; more steps cost more.
     pub steps_per_age: u32,
     /// Quality of the solver that bends the film. Default: [`SolverQuality::Default`].
     pub quality: SolverQuality,

@@ -10,6 +10,7 @@ pub(crate) mod coating;
 pub mod diagnostics;
 pub(crate) mod error;
 pub(crate) mod film_pace;
+pub(crate) mod limits;
 pub(crate) mod links;
 pub(crate) mod messages;
 pub(crate) mod shelter;

@@ -87,7 +87,7 @@ fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be coated.
 fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
-    check_fields(coating)?;
+    coating.validate()?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
     let mut meshes = Vec::with_capacity(slots.len());
     for &slot in slots {
@@ -124,20 +124,6 @@ fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coati
     let paint = FilmPaint::new(coating, Vec3::ZERO);
     let (key, quality) = (coating.key(), coating.quality);
     Ok(Some(FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint }))
-}
-
-/// Checks the ranges of a coating's own fields.
-fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {
-    let range = "0 or more, and finite";
-    for (field, found) in [("rate", coating.rate), ("start_age", coating.start_age)] {
-        if !(found.is_finite() && found >= 0.0) {
-            return Err(CoatingFault::Field { field, found, range });
-        }
-    }
-    if coating.steps_per_age == 0 {
-        return Err(CoatingFault::Field { field: "steps_per_age", found: 0.0, range: "1 or more" });
-    }
-    Ok(())
 }
 
 /// Returns the settings of a coating once they are loaded, and checks them.
