@@ -11,6 +11,7 @@ pub use crate::{
         error::{CoatingError, CoatingFault},
         links::CoatedBy,
         messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+        outline::{PropMask, PropOutline},
         shelter::{RainShelter, Shelter},
         stain_display::StainDisplay,
         status::CoatingStatus,

@@ -17,6 +17,7 @@ use crate::{
     api::{
         budget::CoatingBudget,
         clock::{CoatingClock, CoatingGravity},
+        display_cost::DisplayCost,
         film_pace::FilmPace,
         links::{AwaitingFilm, FilmRefused, FilmSlot},
         status::CoatingStatus,
@@ -51,7 +52,7 @@ pub(crate) fn advance(
     cameras: &mut Cameras,
 ) {
     let begin = Instant::now();
-    let budget = *world.resource::<CoatingBudget>();
+    let budget = world.resource::<DisplayCost>().leaves(*world.resource::<CoatingBudget>());
     plan(world, films);
     let rounds = plan_budget(world, budget_films, cameras, budget);
     let mut taken = 0;

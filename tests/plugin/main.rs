@@ -20,9 +20,14 @@ mod budget;
 mod clock;
 mod display;
 #[cfg(feature = "render")]
+mod mask_picture;
+#[cfg(feature = "render")]
+mod outline;
+#[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
+mod rest;
 mod settings;
 mod shelter;
 mod stain_display;
