@@ -11,6 +11,7 @@ use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment
 ///
 /// The plugin inserts it when the film is ready and keeps it up to date with the [`Coating`](super::coating::Coating).
 #[derive(Component, Clone, Debug)]
+#[component(clone_behavior = Ignore)]
 pub struct FilmPace {
     /// Settings with which the film steps.
     pub settings: Arc<CoatingSettings>,

@@ -8,7 +8,10 @@ use super::{
     part::MeshPart,
     wedges::Wedges,
 };
-use crate::{film::Topology, fracture::FilmForces};
+use crate::{
+    film::{FaceId, Topology},
+    fracture::FilmForces,
+};
 
 /// Entry of the lookup for a corner that has no back vertex yet.
 const NONE: u32 = u32::MAX;
@@ -45,7 +48,8 @@ impl Backs {
         behind.iter_mut().for_each(Vec::clear);
         of_corner.clear();
         of_corner.resize(topology.half_edge_count(), NONE);
-        for f in topology.live_faces().filter(|&f| has_separated(topology, forces, f)) {
+        let is_shown = |f: &FaceId| !face_slots.is_hidden(*f) && has_separated(topology, forces, *f);
+        for f in topology.live_faces().filter(is_shown) {
             let slot = face_slots.slot(f);
             let [a, b, c] = face_slots.corners(f);
             for h in [a, c, b] {

@@ -49,7 +49,8 @@ impl Metal {
         of_wedge.clear();
         of_wedge.resize(wedges.rest_count(), NONE);
         for f in topology.all_faces() {
-            if topology.is_live(f) && !has_separated(topology, forces, f) {
+            let covered = topology.is_live(f) && !has_separated(topology, forces, f);
+            if covered || face_slots.is_hidden(f) {
                 continue;
             }
             let slot = face_slots.slot(f);

@@ -135,6 +135,12 @@ impl FilmAppearance {
         self.metal.parts.get(slot)
     }
 
+    /// Hides slot `slot` for good: its faces have no front, no back and no metal from the next update on, which must
+    /// count as a change of everything.
+    pub fn hide_slot(&mut self, slot: usize) {
+        self.face_slots.hide(slot);
+    }
+
     /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
     ///
     /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's count as a change of everything.
@@ -212,7 +218,7 @@ impl FilmAppearance {
         for part in &mut self.fronts {
             part.indices.clear();
         }
-        for f in topology.live_faces() {
+        for f in topology.live_faces().filter(|&f| !self.face_slots.is_hidden(f)) {
             let corners = self.face_slots.corners(f).map(|h| self.wedges.vertex_of(h));
             if let Some(part) = self.fronts.get_mut(self.face_slots.slot(f)) {
                 part.indices.extend(corners);

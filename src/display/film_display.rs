@@ -5,6 +5,7 @@ use bevy::{
     ecs::{
         change_detection::DetectChangesMut,
         component::Component,
+        entity::Entity,
         system::{Query, ResMut},
     },
     math::Vec3,
@@ -33,6 +34,7 @@ const COLORING: u64 = 8;
 
 /// Appearance of a film, on its entity, and the assets that draw it.
 #[derive(Component)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct FilmDisplay {
     /// Front, backs and metal as arrays.
     pub(super) appearance: FilmAppearance,
@@ -81,16 +83,18 @@ impl FilmDisplay {
         built: &BuiltFilm,
         slots: Vec<SlotAttributes>,
         scale: Vec3,
+        origin: Vec3,
         paint: FilmPaint,
     ) -> Self {
         let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None, canvas: StainCanvas::default() };
         Self {
             appearance: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
-            space: PartSpace::new(scale),
+            space: PartSpace::new(scale, origin),
             paint,
             edge: film.mesh.geometry.mean_edge,
             #[cfg(feature = "render")]
-            materials_outdated: false,
+            // The prop may still wear the materials of an earlier film.
+            materials_outdated: true,
             slots: slots.into_iter().map(empty).collect(),
             changes: DisplayChanges::default(),
             repainted: false,
@@ -115,6 +119,49 @@ impl FilmDisplay {
             write_part(&mut mesh, part, display.attributes, self.space, &display.canvas);
             display.mesh = Some(mesh);
         }
+    }
+
+    /// Returns a display for a copy of the film, with meshes and parts of its own.
+    pub fn copy(&self, assets: &Assets<Mesh>) -> Self {
+        let mesh_of = |slot: &DisplaySlot| slot.handle.as_ref().and_then(|handle| assets.get(handle)).cloned();
+        let copy = |slot: &DisplaySlot| DisplaySlot {
+            attributes: slot.attributes,
+            mesh: mesh_of(slot),
+            handle: None,
+            canvas: slot.canvas.clone(),
+        };
+        Self {
+            appearance: self.appearance.clone(),
+            space: self.space,
+            paint: self.paint.clone(),
+            edge: self.edge,
+            #[cfg(feature = "render")]
+            materials_outdated: true,
+            slots: self.slots.iter().map(copy).collect(),
+            changes: self.changes,
+            repainted: self.repainted,
+            urgent: false,
+            due: false,
+            credit: 0.0,
+            #[cfg(feature = "render")]
+            parts: super::part_handles::PartHandles::default(),
+        }
+    }
+
+    /// Hides slot `slot` for good: it has no front, no backs and no metal any more.
+    pub fn hide_slot(&mut self, slot: usize) {
+        self.appearance.hide_slot(slot);
+        if let Some(slot) = self.slots.get_mut(slot) {
+            (slot.mesh, slot.handle) = (None, None);
+        }
+    }
+
+    /// Returns whether `entity` draws the film's backs or metal.
+    pub fn has_part(&self, #[cfg_attr(not(feature = "render"), expect(unused_variables))] entity: Entity) -> bool {
+        #[cfg(feature = "render")]
+        return self.parts.contains(entity);
+        #[cfg(not(feature = "render"))]
+        false
     }
 
     /// Adds the meshes as assets and returns one handle a primitive; `None` for a primitive of which the film has no

@@ -44,6 +44,8 @@ pub const ATTRIBUTE_REST_NORMAL: MeshVertexAttribute =
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PartSpace {
     scale: Vec3,
+    /// Point of the scaled mesh that is zero in the film's space.
+    origin: Vec3,
     /// Whether directions change, too.
     skewed: bool,
     /// Whether the film is a mirror image of the prop's mesh.
@@ -51,10 +53,11 @@ pub(super) struct PartSpace {
 }
 
 impl PartSpace {
-    /// Returns the transform for a prop of world scale `scale`.
-    pub fn new(scale: Vec3) -> Self {
+    /// Returns the transform for a prop of world scale `scale`, whose film has its zero at `origin` of the scaled mesh.
+    pub fn new(scale: Vec3, origin: Vec3) -> Self {
         Self {
             scale,
+            origin,
             skewed: scale.x != scale.y || scale.y != scale.z || scale.x < 0.0,
             mirrored: scale.x * scale.y * scale.z < 0.0,
         }
@@ -67,7 +70,7 @@ impl PartSpace {
     }
 
     fn position(&self, p: [f32; 3]) -> [f32; 3] {
-        (Vec3::from_array(p) / self.scale).to_array()
+        ((Vec3::from_array(p) + self.origin) / self.scale).to_array()
     }
 
     /// Transforms a normal by the inverse transpose, which undoes the transform that it was read with.

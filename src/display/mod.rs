@@ -44,12 +44,15 @@ use bevy::{
 pub(crate) use film_display::FilmDisplay;
 pub(crate) use film_paint::FilmPaint;
 #[cfg(feature = "render")]
-pub(crate) use material::ready::is_material_ready;
-#[cfg(feature = "render")]
 pub use material::{
     dress::CoatedMaterial,
     extension::{StainExtension, StainedMaterial},
     view::StainView,
+};
+#[cfg(feature = "render")]
+pub(crate) use material::{
+    dress::undress,
+    ready::{material_of, transparency_of},
 };
 pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 
@@ -80,7 +83,7 @@ impl Plugin for FilmDisplayPlugin {
                 film_display::follow_films,
                 film_display::write_fronts,
                 #[cfg(feature = "render")]
-                (parts::sweep_copies, outlines::follow_outlines, parts::write_parts)
+                (outlines::follow_outlines, parts::write_parts)
                     .chain()
                     .run_if(parts::has_materials),
             )

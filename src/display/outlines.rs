@@ -4,7 +4,7 @@ use bevy::{
     asset::{AssetEvent, AssetId, Assets},
     ecs::{
         archetype::Archetype,
-        change_detection::{DetectChanges, DetectChangesMut},
+        change_detection::{DetectChanges, DetectChangesMut, Ref},
         entity::Entity,
         lifecycle::RemovedComponents,
         message::MessageReader,
@@ -59,7 +59,7 @@ impl OwnMaterials<'_, '_> {
 /// Brings the outlines up to date of films that are new, whose coating has changed, or whose materials may have.
 pub(super) fn follow_outlines(
     mut films: Query<(&CoatedBy, &FilmSource, &mut FilmDisplay)>,
-    coatings: Query<&Coating>,
+    coatings: Query<Ref<Coating>>,
     mut changes: MaterialChanges,
     mut own: OwnMaterials,
 ) {
@@ -78,12 +78,13 @@ pub(super) fn follow_outlines(
         let new = display.is_added();
         let parts = &mut display.bypass_change_detection().parts;
         parts.slots.resize_with(source.slots.len(), Default::default);
-        if !(all || new || parts.outdated || parts.slots.iter().any(|slot| slot.outline.is_none())) {
+        let Ok(coating) = coatings.get(coated_by.0) else { continue };
+        let unknown = parts.slots.iter().any(|slot| slot.outline.is_none());
+        if !(all || new || unknown || coating.is_changed()) {
             continue;
         }
-        let Ok(coating) = coatings.get(coated_by.0) else { continue };
         for (parts, &slot) in parts.slots.iter_mut().zip(&source.slots) {
-            let outline = own.outline(slot, coating);
+            let outline = own.outline(slot, &coating);
             if parts.outline != outline {
                 (parts.outline, parts.outdated) = (outline, true);
             }

@@ -77,6 +77,11 @@ impl PartHandles {
         }
     }
 
+    /// Returns whether `entity` draws one of the parts.
+    pub fn contains(&self, entity: Entity) -> bool {
+        self.entities().any(|part| part == entity)
+    }
+
     /// Returns the entities that draw the parts.
     pub fn entities(&self) -> impl Iterator<Item = Entity> {
         self.slots.iter().flat_map(|slot| [&slot.backs, &slot.metal]).flatten().map(|part| part.entity)

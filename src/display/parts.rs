@@ -5,13 +5,11 @@ use bevy::{
     asset::{Assets, Handle},
     ecs::{
         change_detection::{DetectChanges, DetectChangesMut},
-        component::Component,
         entity::Entity,
         hierarchy::ChildOf,
         lifecycle::Remove,
         name::Name,
         observer::On,
-        query::{Added, With, Without},
         system::{Commands, Query, Res, ResMut, SystemParam},
     },
     mesh::{Mesh, Mesh3d},
@@ -39,11 +37,6 @@ use crate::{
     appearance::{DisplayChanges, shading::StainPart},
     sim::Stage,
 };
-
-/// Mark of the parts that a film knows. Clones of a part do not have it.
-#[derive(Component)]
-#[component(clone_behavior = Ignore)]
-pub(super) struct KnownPart;
 
 /// Returns whether the app has standard materials at all; a server may not.
 pub(super) fn has_materials(materials: Option<Res<Assets<StandardMaterial>>>) -> bool {
@@ -214,7 +207,7 @@ impl PartAssets<'_, '_> {
         let transform = *self.places.get(primitive).ok()?;
         let name = if kind == StainPart::Back { "paint backs" } else { "bare metal" };
         let place = (Transform::IDENTITY, transform, Visibility::Inherited, ChildOf(primitive));
-        let mut part = self.commands.spawn((CoatingPart, KnownPart, Name::new(name), Mesh3d(mesh.clone()), place));
+        let mut part = self.commands.spawn((CoatingPart, Name::new(name), Mesh3d(mesh.clone()), place));
         match material {
             PartMaterial::Stained(handle) => part.insert(MeshMaterial3d(handle.clone())),
             PartMaterial::Plain(handle) => part.insert(MeshMaterial3d(handle.clone())),
@@ -235,16 +228,5 @@ pub(super) fn on_display_removed(removed: On<Remove, FilmDisplay>, mut commands:
     let Ok(display) = films.get(removed.entity) else { return };
     for part in display.parts.entities() {
         commands.entity(part).try_despawn();
-    }
-}
-
-/// Despawns parts that came into the world as copies: clones of a prop, or a scene that was saved with its parts. Each
-/// film spawns its own.
-pub(super) fn sweep_copies(
-    mut commands: Commands,
-    copies: Query<Entity, (Added<CoatingPart>, With<CoatingPart>, Without<KnownPart>)>,
-) {
-    for copy in &copies {
-        commands.entity(copy).try_despawn();
     }
 }

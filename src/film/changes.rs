@@ -35,7 +35,7 @@ pub struct Debris {
 /// assert_eq!(changes, FilmChanges::default());
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmChanges {
     /// Vertices that separated from the metal (VC 5.1).
     pub separated: Vec<VertexId>,

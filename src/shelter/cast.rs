@@ -58,7 +58,9 @@ pub(crate) fn cast(
             continue;
         }
         (shelter.settled, shelter.overdue) = (false, true);
-        let Some(mut order) = scene.order(&environment, transform, coated_by.0, &source.slots) else { continue };
+        let Some(mut order) = scene.order(&environment, source.place(transform), coated_by.0, &source.slots) else {
+            continue;
+        };
         let surface = shelter.surface.get_or_insert_with(|| Arc::new(ExposedSurface::new(mesh)));
         order.cull(surface);
         let tolerance = TOLERANCE * mesh.geometry.mean_edge;

@@ -19,6 +19,7 @@ pub(super) const RESTLESS: u32 = 8;
 
 /// Shelter of one film, on the film's entity.
 #[derive(Component, Debug, Default)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct FilmShelter {
     /// Choice of the coating.
     pub choice: Shelter,

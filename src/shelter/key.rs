@@ -104,6 +104,16 @@ impl CastOrder {
         self.blockers.push(blocker);
     }
 
+    /// Returns the order for a film whose zero lies at `origin` of the space that the order was made for.
+    pub fn shifted(mut self, origin: Vec3) -> Self {
+        let shift = Affine3A::from_translation(origin);
+        if origin != Vec3::ZERO {
+            self.key.pieces.iter_mut().for_each(|piece| piece.into *= shift);
+            self.blockers.iter_mut().for_each(|blocker| blocker.into *= shift);
+        }
+        self
+    }
+
     /// Removes the meshes that cannot stand in the way of rain or sun on `surface`.
     pub fn cull(&mut self, surface: &ExposedSurface) {
         let falls = self.key.falls;

@@ -25,7 +25,7 @@ use crate::{
     api::{
         coating::Coating,
         error::CoatingFault,
-        links::{CoatingPart, FilmSlot},
+        links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmSlot},
         shelter::{RainShelter, Shelter},
         weather::CoatingWeather,
     },
@@ -88,6 +88,8 @@ pub(crate) fn survey(
     server: Option<Res<AssetServer>>,
     shelters: Query<Entity, With<RainShelter>>,
     coatings: Query<(Entity, &Coating)>,
+    awaiting: Query<&AwaitingFilm>,
+    outdated: Query<&CoatedBy, With<FilmOutdated>>,
     children: Query<&Children>,
     meshes: Query<(&Mesh3d, &GlobalTransform, Option<&FilmSlot>), (Without<CoatingPart>, Without<SkinnedMesh>)>,
 ) {
@@ -96,7 +98,13 @@ pub(crate) fn survey(
             scene.meshes.remove(id);
         }
     }
-    if !weather.reaches_anything() {
+    // Films that are about to be built may have a past with rain or sun.
+    let has_past = |root: Entity| {
+        let past = coatings.get(root).ok().and_then(|(_, coating)| coating.key().past_weather);
+        past.is_some_and(|past| past.reaches_anything())
+    };
+    let mut begun = awaiting.iter().map(|awaiting| awaiting.root).chain(outdated.iter().map(|coated_by| coated_by.0));
+    if !weather.reaches_anything() && !begun.any(has_past) {
         return;
     }
     let mut found = Vec::with_capacity(scene.pieces.len());
@@ -161,20 +169,18 @@ impl ShelterScene {
         self.revision
     }
 
-    /// Returns the order for casting rays on the film at `transform` that is coated by `root` and made of the meshes of
+    /// Returns the order for casting rays on the film at `place` that is coated by `root` and made of the meshes of
     /// `slots`. `None` while meshes are being loaded or sorted.
     pub fn order(
         &self,
         environment: &Environment,
-        transform: &GlobalTransform,
+        place: Affine3A,
         root: Entity,
         slots: &[Entity],
     ) -> Option<CastOrder> {
         if !self.ready {
             return None;
         }
-        let (_, rotation, translation) = transform.to_scale_rotation_translation();
-        let place = Affine3A::from_rotation_translation(rotation, translation);
         let mut order = CastOrder::new(environment);
         for piece in &self.pieces {
             let others = piece.root.is_some_and(|only| only != root);

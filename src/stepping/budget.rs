@@ -58,12 +58,13 @@ struct Candidate {
     seconds: f64,
 }
 
-/// Returns the centre and radius of a sphere around a film at rest, in the film's space.
-pub(crate) fn bounds(geometry: &Geometry) -> (Vec3, f32) {
+/// Returns the centre and radius of a sphere around a film at rest, in the space of the scaled mesh, in which the film
+/// has its zero at `origin`.
+pub(crate) fn bounds(geometry: &Geometry, origin: Vec3) -> (Vec3, f32) {
     let points = &geometry.rest_positions;
     let (min, max) =
         points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
-    if points.is_empty() { (Vec3::ZERO, 0.0) } else { ((min + max) * 0.5, (max - min).length() * 0.5) }
+    if points.is_empty() { (Vec3::ZERO, 0.0) } else { ((min + max) * 0.5 + origin, (max - min).length() * 0.5) }
 }
 
 /// Query of the films that share the budget.

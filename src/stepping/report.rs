@@ -45,7 +45,7 @@ pub(super) fn report(
             if !pace.due {
                 continue;
             }
-            let world = FilmToWorld { transform, scale: source.scale };
+            let world = FilmToWorld { transform, scale: source.scale, origin: source.origin };
             if let (false, Some(&edge)) = (pace.cracked, changes.torn.first()) {
                 pace.cracked = true;
                 let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
@@ -70,11 +70,12 @@ pub(super) fn report(
 struct FilmToWorld<'a> {
     transform: &'a GlobalTransform,
     scale: Vec3,
+    origin: Vec3,
 }
 
 impl FilmToWorld<'_> {
     fn point(&self, p: Vec3) -> Vec3 {
-        self.transform.transform_point(p / self.scale)
+        self.transform.transform_point((p + self.origin) / self.scale)
     }
 
     fn direction(&self, d: Vec3) -> Vec3 {

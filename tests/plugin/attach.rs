@@ -184,7 +184,7 @@ fn a_changed_coating_is_followed_at_once_or_by_a_new_film() {
     assert_eq!(film_state(&app, plate).clock.steps, 50, "settings and rate need no new film");
     let pace = app.world().get::<bevy_coating::FilmPace>(plate).expect("a film");
     assert_eq!((pace.rate, pace.settings.adhesion.decay), (3.0, 0.6));
-    app.world_mut().get_mut::<Coating>(plate).expect("a coating").seed = 8;
+    app.world_mut().get_mut::<Coating>(plate).expect("a coating").seed = Some(8);
     update_until(&mut app, |app| app.world().get::<FilmClock>(plate).is_some_and(|clock| clock.steps == 0));
 }
 

@@ -18,7 +18,9 @@ mod ageing;
 mod attach;
 mod budget;
 mod clock;
+mod clones;
 mod display;
+mod groups;
 #[cfg(feature = "render")]
 mod mask_picture;
 #[cfg(feature = "render")]
@@ -28,6 +30,9 @@ mod parts;
 #[cfg(feature = "render")]
 mod picture;
 mod rest;
+mod rebuilding;
+mod recovery;
+mod seeds;
 mod settings;
 mod shelter;
 mod stain_display;
