@@ -1,6 +1,7 @@
 //! Defines [`MeshPart`], the vertex arrays of one part of a film's appearance.
 
 use super::shading::StainSample;
+use crate::stain::shown::MOST_LAYERS;
 
 /// Vertices and triangles of one part of a film's appearance (front, backs or metal), in the film's space.
 ///
@@ -47,10 +48,6 @@ pub struct MeshPart {
     /// Vertex indices, three a triangle. Fronts and metal are wound as the prop's own triangles, backs the other way.
     pub indices: Vec<u32>,
 }
-
-/// Layers of rust beyond which more rust looks the same. Without this limit almost the whole edge between a vertex with
-/// many layers and a clean vertex would be covered, and stains would show the outlines of triangles.
-const MOST_LAYERS: f32 = 1.0;
 
 /// Returns the entry of [`MeshPart::stains`] for a vertex with `layers` of rust.
 pub(super) fn vertex_stains(layers: f32, dust: f32, moisture: f32, corrosion: f32) -> [f32; 4] {

@@ -66,6 +66,17 @@ impl FilmChanges {
         self.moved = false;
     }
 
+    /// Appends what an edit between two steps changed.
+    pub fn append(&mut self, mut edit: Self) {
+        self.separated.append(&mut edit.separated);
+        self.torn.append(&mut edit.torn);
+        self.torn_ends.append(&mut edit.torn_ends);
+        self.duplicates.append(&mut edit.duplicates);
+        self.removed.append(&mut edit.removed);
+        self.debris.append(&mut edit.debris);
+        self.moved |= edit.moved;
+    }
+
     /// Returns whether a vertex separated, an edge tore or a face was removed. Constraints and pieces must then be
     /// brought up to date.
     pub fn fractured(&self) -> bool {

@@ -1,10 +1,12 @@
 //! Ages one film step by step, without an engine.
 //!
-//! [`FilmState`] holds everything that one film needs and [`stage`] the stages of a step. Baking, benches, background
+//! [`FilmState`] holds everything that one film needs, [`stage`] the stages of a step and [`edit`] what may be done to a
+//! film from outside. Baking, benches, background
 //! ageing and tests use them as they are; the plugin runs the same stages on the same parts, as components.
 
 mod clock;
 mod digest;
+pub mod edit;
 mod film_measures;
 mod measure;
 mod scratch;
