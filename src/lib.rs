@@ -151,6 +151,7 @@ pub use api::{
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatingPart},
     messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+    outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
     stain_display::StainDisplay,

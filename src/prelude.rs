@@ -12,6 +12,7 @@ pub use crate::{
         exclude::CoatingExclude,
         links::CoatedBy,
         messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+        outline::{PropMask, PropOutline},
         seed::CoatingSeed,
         shelter::{RainShelter, Shelter},
         stain_display::StainDisplay,

@@ -14,6 +14,9 @@ use bevy::{
 /// than one that fills the view. A postponed film keeps the steps that the clock owes it and takes them together later,
 /// with the same result.
 ///
+/// Showing films that changed takes its time from the same budget, half of it at most. Films that do not fit are shown
+/// in a later frame, in the same order of preference; what they missed is shown together. Ageing does not wait for it.
+///
 /// Where that is not enough, because a film would need more than [`max_steps`](Self::max_steps), because time runs out,
 /// or because postponed films are several frames' worth of steps behind, the frame is worth less age for all films
 /// alike: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
@@ -35,7 +38,7 @@ use bevy::{
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingBudget {
-    /// Wall time of a frame's steps after which no further step is begun. Default 4 ms.
+    /// Wall time of a frame after which no further step is begun, less what showing films takes. Default 4 ms.
     pub max_time: Duration,
     /// Most steps that a film may take in one frame; 0 counts as 1. Default 16.
     pub max_steps: u32,

@@ -6,7 +6,7 @@ use bevy::{
     reflect::prelude::*,
 };
 
-use super::{shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather};
+use super::{outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather};
 use crate::{
     appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
     deform::SolverQuality,
@@ -93,6 +93,9 @@ pub struct Coating {
     /// Colours and strengths of stains, of the metal under the paint and of the paint's back. Default:
     /// [`FilmShading::default`].
     pub shading: FilmShading,
+    /// Sides and holes of backs and metal where the prop's material is not a `StandardMaterial`. Default:
+    /// [`PropOutline::default`], front sides without holes.
+    pub outline: PropOutline,
 }
 
 impl Default for Coating {
@@ -110,6 +113,7 @@ impl Default for Coating {
             shelter: Shelter::default(),
             stain_display: StainDisplay::default(),
             shading: FilmShading::default(),
+            outline: PropOutline::default(),
         }
     }
 }
@@ -270,6 +274,11 @@ impl Coating {
     /// ```
     pub fn with_metal(self, metal: MetalShading) -> Self {
         Self { shading: FilmShading { metal, ..self.shading }, ..self }
+    }
+
+    /// Sets the [`outline`](Self::outline) of a prop whose material is not a `StandardMaterial`.
+    pub fn with_outline(self, outline: PropOutline) -> Self {
+        Self { outline, ..self }
     }
 
     /// Sets the colours and strengths of stains.

@@ -52,7 +52,7 @@ use super::{
 pub struct CoatedBy(pub Entity);
 
 /// Marker of the entities that the plugin spawns to draw the backs of flakes and the bare metal. They are children of
-/// the film's entity.
+/// the entities of the prop's meshes, and have their render layers, shadow flags and visibility.
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Default, Debug, Clone)]
 pub struct CoatingPart;

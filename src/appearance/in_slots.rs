@@ -1,55 +1,43 @@
-//! Picks the backs and the metal of some slots out of those of all, with the prop's own attributes, as alpha masks need
-//! them.
+//! Joins the backs and the metal of several slots, for those who draw them with one material.
 
-use super::{CornerAttributes, FilmAppearance, MeshPart};
-use crate::film::HalfEdgeId;
+use super::{FilmAppearance, MeshPart};
 
 impl FilmAppearance {
-    /// Returns the backs of the flakes of those slots that `wanted` asks for, with the prop's own texture coordinates
-    /// and vertex colours.
+    /// Returns the backs of the flakes of those slots that `wanted` asks for, in one part.
     pub fn backs_in(&self, wanted: impl Fn(usize) -> bool) -> MeshPart {
-        self.pick(&self.backs.part, |v| self.backs.corner(v, &self.wedges), wanted)
+        join(&self.backs.parts, wanted)
     }
 
-    /// Returns the bare metal of those slots that `wanted` asks for, with the prop's own texture coordinates and vertex
-    /// colours.
+    /// Returns the bare metal of those slots that `wanted` asks for, in one part.
+    ///
+    /// ```
+    /// use bevy_coating::{appearance::FilmAppearance, remesh::sample, settings::CoatingSettings, sim::FilmState};
+    ///
+    /// let (piece, settings) = (sample::plate(200, 1)?, CoatingSettings::default());
+    /// let film = FilmState::new(&piece.film, &settings, 0, 100).ok_or("an empty film")?;
+    /// let fresh = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    /// assert!(fresh.metal_in(|_| true).is_empty(), "fresh paint hides all metal");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn metal_in(&self, wanted: impl Fn(usize) -> bool) -> MeshPart {
-        self.pick(&self.metal.part, |v| self.metal.corner(v), wanted)
+        join(&self.metal.parts, wanted)
     }
+}
 
-    /// Picks the triangles of some slots. Vertices of different slots are different.
-    fn pick(
-        &self,
-        part: &MeshPart,
-        corner: impl Fn(usize) -> Option<HalfEdgeId>,
-        wanted: impl Fn(usize) -> bool,
-    ) -> MeshPart {
-        let mut picked = MeshPart::default();
-        let mut places = vec![u32::MAX; part.positions.len()];
-        for triangle in part.indices.as_chunks::<3>().0 {
-            let slot = corner(triangle[0] as usize).map_or(0, |h| self.face_slots.slot(h.face()));
-            if !wanted(slot) {
-                continue;
-            }
-            for &v in triangle {
-                let v = v as usize;
-                if places[v] == u32::MAX {
-                    places[v] = picked.positions.len() as u32;
-                    picked.positions.push(part.positions[v]);
-                    picked.normals.push(part.normals[v]);
-                    picked.stains.extend(part.stains.get(v));
-                    picked.rest.extend(part.rest.get(v));
-                    picked.rest_normals.extend(part.rest_normals.get(v));
-                    if let Some(h) = corner(v) {
-                        let CornerAttributes { uvs, uvs_1, colors, .. } = &self.attributes;
-                        picked.uvs.extend(uvs.get(h.index()).map(|uv| uv.to_array()));
-                        picked.uvs_1.extend(uvs_1.get(h.index()).map(|uv| uv.to_array()));
-                        picked.colors.extend(colors.get(h.index()).map(|color| color.to_array()));
-                    }
-                }
-                picked.indices.push(places[v]);
-            }
-        }
-        picked
+/// Appends the parts of some slots to each other.
+fn join(parts: &[MeshPart], wanted: impl Fn(usize) -> bool) -> MeshPart {
+    let mut joined = MeshPart::default();
+    for (_, part) in parts.iter().enumerate().filter(|&(slot, _)| wanted(slot)) {
+        let first = joined.positions.len() as u32;
+        joined.positions.extend_from_slice(&part.positions);
+        joined.normals.extend_from_slice(&part.normals);
+        joined.uvs.extend_from_slice(&part.uvs);
+        joined.uvs_1.extend_from_slice(&part.uvs_1);
+        joined.colors.extend_from_slice(&part.colors);
+        joined.stains.extend_from_slice(&part.stains);
+        joined.rest.extend_from_slice(&part.rest);
+        joined.rest_normals.extend_from_slice(&part.rest_normals);
+        joined.indices.extend(part.indices.iter().map(|&vertex| first + vertex));
     }
+    joined
 }

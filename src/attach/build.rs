@@ -100,7 +100,7 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
 /// Casts rays for a fresh film and stores its exposure to rain and sun.
 fn cast(mut order: CastOrder, film: &mut FilmState) -> FilmShelter {
     let surface = Arc::new(ExposedSurface::new(&film.mesh));
-    order.cull(&surface);
+    order.cull(surface.sphere());
     film.stains.exposure = order.cast(&surface);
     FilmShelter::of_built(surface, order.key)
 }

@@ -84,9 +84,10 @@ pub(super) fn copy_clones(
     }
 }
 
-/// Returns whether the film on `parent` draws its backs or metal with `part`.
+/// Returns whether the film of the mesh on `parent` draws its backs or metal with `part`.
 fn is_own_part(world: &World, part: Entity, parent: Entity) -> bool {
-    world.get::<FilmDisplay>(parent).is_some_and(|display| display.has_part(part))
+    let film = world.get::<FilmSlot>(parent).map(|slot| slot.film);
+    film.and_then(|film| world.get::<FilmDisplay>(film)).is_some_and(|display| display.has_part(part))
 }
 
 /// Returns where the film of a clone will be; `None` if it cannot be a copy of the original's.

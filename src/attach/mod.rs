@@ -32,13 +32,13 @@ use bevy::{
 
 use crate::{
     api::system_sets::CoatingAttach,
-    shelter::{self, ShelterScene},
+    shelter::{self, ShelterScene, ShelteredFilms},
 };
 
 /// Adds the systems that put films on props, and the survey of shelters between them.
 pub(crate) fn add_attachment(app: &mut App) {
     app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
-    app.init_resource::<ShelterScene>();
+    app.init_resource::<ShelterScene>().init_resource::<ShelteredFilms>();
     app.add_systems(
         PostUpdate,
         (

@@ -34,9 +34,13 @@ pub(super) fn follow_coatings(
         }
         let other = paint.display != display.paint.display;
         display.paint = paint;
+        display.repainted = true;
+        // A material that has been replaced must not meet a mesh of another layout.
+        display.urgent |= other;
         #[cfg(feature = "render")]
         {
             display.materials_outdated = true;
+            display.parts.outdated = true;
         }
         let changes = changes.bypass_change_detection();
         changes.stains = true;

@@ -24,6 +24,7 @@ use crate::{
     api::{
         budget::CoatingBudget,
         clock::{CoatingClock, CoatingGravity},
+        display_cost::DisplayCost,
         film_pace::FilmPace,
         links::{AwaitingFilm, FilmRefused, FilmSlot},
         status::CoatingStatus,
@@ -58,7 +59,7 @@ pub(crate) fn advance(
     cameras: &mut Cameras,
 ) {
     let begin = Instant::now();
-    let budget = *world.resource::<CoatingBudget>();
+    let budget = world.resource::<DisplayCost>().leaves(*world.resource::<CoatingBudget>());
     let max_steps = u64::from(budget.max_steps.max(1));
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
     let age = plan(world, films, max_steps, seconds);

@@ -22,11 +22,16 @@ mod clones;
 mod display;
 mod groups;
 #[cfg(feature = "render")]
+mod mask_picture;
+#[cfg(feature = "render")]
+mod outline;
+#[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
 mod rebuilding;
 mod recovery;
+mod rest;
 mod seeds;
 mod settings;
 mod shelter;

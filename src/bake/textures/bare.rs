@@ -1,7 +1,5 @@
 //! Sorts backs and metal by the alpha masks that hold for them.
 
-use std::borrow::Cow;
-
 use super::Base;
 use crate::{
     appearance::{FilmAppearance, MeshPart},
@@ -13,11 +11,11 @@ use crate::{
 
 /// Backs and metal of a prop. Those under paint with an alpha mask are parts of their own, with the coordinates of the
 /// mask: holes in the paint are holes in the metal.
-pub struct Bare<'a>(Vec<BarePart<'a>>);
+pub struct Bare(Vec<BarePart>);
 
 /// A part of primer or metal.
-pub struct BarePart<'a> {
-    pub part: Cow<'a, MeshPart>,
+pub struct BarePart {
+    pub part: MeshPart,
     pub base: Base,
     /// The attributes that its mask needs.
     pub has: Slot,
@@ -25,37 +23,31 @@ pub struct BarePart<'a> {
     pub mask: Option<usize>,
 }
 
-impl<'a> Bare<'a> {
-    pub fn new(prop: &Prop, appearance: &'a FilmAppearance, library: &MaterialLibrary) -> Self {
+impl Bare {
+    pub fn new(prop: &Prop, appearance: &FilmAppearance, library: &MaterialLibrary) -> Self {
         let mask = |slot: usize| {
             let material = prop.slots.get(slot)?.material?;
             (library.materials.get(material)?["alphaMode"] == "MASK").then_some(material)
         };
         let masks: Vec<(usize, usize)> = (0..prop.slots.len()).filter_map(|slot| Some((slot, mask(slot)?))).collect();
         let part = |part, base| BarePart { part, base, has: Slot::default(), mask: None };
-        if masks.is_empty() {
-            let [backs, metal] = [appearance.backs(), appearance.metal()].map(Cow::Borrowed);
-            return Self(vec![part(backs, Base::Primer), part(metal, Base::Metal)]);
-        }
         let open = |slot: usize| mask(slot).is_none();
-        let mut parts = vec![
-            part(Cow::Owned(appearance.backs_in(open)), Base::Primer),
-            part(Cow::Owned(appearance.metal_in(open)), Base::Metal),
-        ];
+        let mut parts =
+            vec![part(appearance.backs_in(open), Base::Primer), part(appearance.metal_in(open), Base::Metal)];
         for (slot, material) in masks {
             let has = prop.slots.get(slot).copied().unwrap_or_default();
             let has = Slot { material: None, tangents: false, ..has };
             for (own, base) in
                 [(appearance.backs_in(|s| s == slot), Base::Primer), (appearance.metal_in(|s| s == slot), Base::Metal)]
             {
-                parts.push(BarePart { part: Cow::Owned(own), base, has, mask: Some(material) });
+                parts.push(BarePart { part: own, base, has, mask: Some(material) });
             }
         }
         Self(parts)
     }
 
     /// All parts.
-    pub fn parts(&self) -> &[BarePart<'a>] {
+    pub fn parts(&self) -> &[BarePart] {
         &self.0
     }
 }

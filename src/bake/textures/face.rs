@@ -47,7 +47,7 @@ pub struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// All parts of a prop that have triangles: fronts, backs, metal.
-    pub fn all(prop: &Prop, appearance: &'a FilmAppearance, bare: &'a Bare<'a>) -> Vec<Self> {
+    pub fn all(prop: &Prop, appearance: &'a FilmAppearance, bare: &'a Bare) -> Vec<Self> {
         let fronts = prop.slots.iter().enumerate().filter_map(|(i, &has)| {
             Some(Self {
                 part: appearance.front(i)?,

@@ -112,7 +112,7 @@ pub struct Dressed<'a> {
 pub fn dress<'a>(
     prop: &Prop,
     film: &FilmState,
-    (appearance, bare): (&'a FilmAppearance, &'a Bare<'a>),
+    (appearance, bare): (&'a FilmAppearance, &'a Bare),
     library: &MaterialLibrary,
     textures: &mut Textures,
     output: StainOutput,

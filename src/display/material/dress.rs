@@ -72,7 +72,8 @@ pub(in crate::display) fn dress_props(
         let worn = worn.map_or_else(
             || {
                 let (shading, pattern) = (display.paint.shading.clone(), display.paint.pattern);
-                let extension = StainExtension { part: StainPart::Film, shading, pattern, view: StainView::Lit };
+                let extension =
+                    StainExtension { part: StainPart::Film, shading, pattern, view: StainView::Lit, alpha_only: false };
                 stained.add(StainedMaterial { base: base.clone(), extension })
             },
             |worn| worn.0.clone(),
