@@ -27,14 +27,15 @@ pub struct MeshPart {
     pub positions: Vec<[f32; 3]>,
     /// Normals, of unit length.
     pub normals: Vec<[f32; 3]>,
-    /// First texture coordinates; empty if the prop has none, and for backs.
+    /// First texture coordinates; empty if the prop has none.
     pub uvs: Vec<[f32; 2]>,
-    /// Second texture coordinates; empty if the prop has none, and for backs and metal.
+    /// Second texture coordinates; empty if the prop has none.
     pub uvs_1: Vec<[f32; 2]>,
     /// Tangents of unit length, with the handedness in the fourth component; empty if the prop has none, and for backs
     /// and metal.
     pub tangents: Vec<[f32; 4]>,
-    /// Linear vertex colours with alpha; empty if the prop has none, and for backs and metal.
+    /// Linear vertex colours of the prop with alpha; empty if it has none. Of backs and metal, which have colours of
+    /// their own, only the alpha counts: it cuts holes where the prop's material is a mask.
     pub colors: Vec<[f32; 4]>,
     /// Stains of each vertex: layers of rust that has run off (0 to 1; more is cut off), dust (0 to 1), moisture (0 to
     /// 1), and corrosion of the metal at this place (0 bright to 1 rusted through).

@@ -18,6 +18,8 @@ pub struct Debris {
     pub area: f32,
     /// Number of faces of the piece.
     pub faces: u32,
+    /// Lowest face of the piece.
+    pub face: FaceId,
 }
 
 /// Changes of one step. Each list is in the order in which its changes happened.
@@ -35,7 +37,7 @@ pub struct Debris {
 /// assert_eq!(changes, FilmChanges::default());
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmChanges {
     /// Vertices that separated from the metal (VC 5.1).
     pub separated: Vec<VertexId>,

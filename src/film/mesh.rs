@@ -12,7 +12,7 @@ use super::{
 
 /// The film of one coated prop: a half-edge triangle mesh with its positions.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmMesh {
     /// Connectivity of vertices, half-edges and faces.
     pub topology: Topology,

@@ -44,7 +44,7 @@ use crate::{
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmForces {
     /// Age at which each vertex separated; infinite while it is attached.
     pub separated_age: Vec<f32>,

@@ -68,7 +68,7 @@ pub struct Exposure {
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct StainFields {
     /// Stains on the film: one entry for each film vertex, duplicates included.
     pub film: StainLayer,

@@ -58,7 +58,7 @@ use crate::{
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmConstraints {
     ledger: Ledger,
     packed: PackedConstraints,
