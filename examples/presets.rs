@@ -53,7 +53,7 @@ fn restart(
         *seed += 1;
         for mut coating in &mut spheres {
             // Another seed needs another film: the plugin builds it anew, and it starts at age 0.
-            coating.seed = *seed;
+            coating.seed = Some(*seed);
         }
     }
 }

@@ -93,9 +93,9 @@
 //!
 //! # Limits
 //!
-//! - Skinned and morphed meshes and alpha-blended materials are refused with an error that names the way out
-//!   ([`CoatingFault`]). Materials other than `StandardMaterial` are refused, too, unless [`StainDisplay`] says to
-//!   leave the material alone. A refused prop keeps its mesh.
+//! - Skinned and morphed meshes are refused with an error that names the way out ([`CoatingFault`]). Materials other
+//!   than `StandardMaterial` are refused, too, unless [`StainDisplay`] says to leave the material alone. A refused prop
+//!   keeps its mesh, and is coated as soon as the cause is mended. Glass is left alone.
 //! - Of the vertex attributes only positions, normals, both sets of texture coordinates, tangents and colours are
 //!   carried over to the film.
 //! - A film touches the metal under it only, as a plane under each vertex. On concave or intersecting surfaces film
@@ -146,9 +146,13 @@ pub use api::{
     coating::{Coating, DEFAULT_TRIANGLES, SettingsSource},
     diagnostics,
     error::{CoatingError, CoatingFault},
+    exclude::CoatingExclude,
     film_pace::FilmPace,
+    limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatingPart},
     messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+    outline::{PropMask, PropOutline},
+    seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
     stain_display::StainDisplay,
     status::CoatingStatus,

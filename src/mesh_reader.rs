@@ -83,6 +83,14 @@ pub(crate) fn shape_of(mesh: &Mesh) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), Co
     Ok((positions.to_vec(), triangles_of(mesh, positions.len())?))
 }
 
+/// Returns the area of a mesh in the world, in square metres, under the world scale `scale`; 0 for a mesh that cannot be
+/// read.
+pub(crate) fn area_of(mesh: &Mesh, scale: Vec3) -> f64 {
+    let Ok((positions, triangles)) = shape_of(mesh) else { return 0.0 };
+    let positions = positions.into_iter().map(|p| Vec3::from_array(p) * scale).collect();
+    Surface { positions, triangles, ..Surface::default() }.area()
+}
+
 /// Appends `values` to `all` and returns whether there are any. Without values it appends `here` times `neutral` if
 /// earlier primitives have some; `before` is the length that `all` should have.
 fn append<T: Copy>(all: &mut Vec<T>, values: Vec<T>, before: usize, here: usize, neutral: T) -> bool {

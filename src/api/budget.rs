@@ -11,11 +11,17 @@ use bevy::{
 ///
 /// When the steps of all films do not fit into a frame, films that are large in the view of the nearest active camera
 /// (radius over distance) step first and the others are postponed. A film far away is postponed up to 16 times longer
-/// than one that fills the view. A postponed film keeps the steps that the clock owes it, up to four frames' worth of
-/// [`max_steps`](Self::max_steps), and takes them together later.
+/// than one that fills the view. A postponed film keeps the steps that the clock owes it and takes them together later,
+/// with the same result.
 ///
-/// Steps that do not fit for a film that was not postponed are dropped: on a slow machine paint ages more slowly
-/// instead of making frames stutter. At least one step is taken in a frame in which any is due. Steps that were
+/// Showing films that changed takes its time from the same budget, half of it at most. Films that do not fit are shown
+/// in a later frame, in the same order of preference; what they missed is shown together. Ageing does not wait for it.
+///
+/// Where that is not enough, because a film would need more than [`max_steps`](Self::max_steps), because time runs out,
+/// or because postponed films are several frames' worth of steps behind, the frame is worth less age for all films
+/// alike: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
+/// [rate](super::coating::Coating::rate) beside the others. [`CoatingStatus`](super::status::CoatingStatus) tells the
+/// pace that is reached. At least one step is taken in a frame in which any is due. Steps that were
 /// [requested](super::clock::CoatingClock::request_steps) are never dropped.
 ///
 /// ```
@@ -32,7 +38,7 @@ use bevy::{
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingBudget {
-    /// Wall time of a frame's steps after which no further step is begun. Default 4 ms.
+    /// Wall time of a frame after which no further step is begun, less what showing films takes. Default 4 ms.
     pub max_time: Duration,
     /// Most steps that a film may take in one frame; 0 counts as 1. Default 16.
     pub max_steps: u32,

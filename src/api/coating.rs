@@ -6,7 +6,7 @@ use bevy::{
     reflect::prelude::*,
 };
 
-use super::{shelter::Shelter, stain_display::StainDisplay};
+use super::{outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather};
 use crate::{
     appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
     deform::SolverQuality,
@@ -20,8 +20,9 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 
 /// Paint that ages, on an entity with a [`Mesh3d`](bevy::mesh::Mesh3d) or on the root of a scene.
 ///
-/// On the root of a scene it coats every mesh below, also meshes that are spawned later. Where entities with a
-/// `Coating` are nested, the nearest one above a mesh counts.
+/// On the root of a scene it coats every mesh below, also meshes that are spawned later, and shares its triangles
+/// between them by area. Where entities with a `Coating` are nested, the nearest one above a mesh counts. Glass is left
+/// alone, and so is everything with a [`CoatingExclude`](super::exclude::CoatingExclude): see there.
 ///
 /// Sibling meshes that all have an identity transform, like the primitives of one glTF node, share one film, which is
 /// on their parent's entity. Otherwise the film is on the entity of the mesh. The entity of a film has
@@ -29,8 +30,10 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 ///
 /// The prop keeps its own mesh until the film has been built in the background, and gets it back when the `Coating` is
 /// removed. The fields `rate`, `paused`, `settings`, `quality`, `shelter`, `stain_display` and `shading` may be changed
-/// at any time. A change of another field builds the film again. For fresh paint remove the `Coating` and insert it
-/// again.
+/// at any time. A change of another field builds the film again; the prop keeps its old film until the new one is
+/// ready. For fresh paint remove the `Coating` and insert it again.
+///
+/// A coated entity may be [cloned](bevy::ecs::entity::EntityCloner): the clone gets a film of its own in the same state.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -54,20 +57,32 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 pub struct Coating {
     /// Settings of the ageing. Default: [`CoatingSettings::default`].
     pub settings: SettingsSource,
-    /// Seed of all random choices: remeshing, adhesion, weak edges and patterns of stains. Default 0.
-    pub seed: u64,
-    /// Resolution of each film. Default: [`DEFAULT_TRIANGLES`] triangles.
+    /// Seed of all random choices: remeshing, adhesion, weak edges and patterns of stains. Props with the same seed are
+    /// twins. `None`, the default: it is drawn from the place in the world where the prop is first coated, and kept as
+    /// [`CoatingSeed`](super::seed::CoatingSeed), so that no two props of a level look alike and each looks the same
+    /// every time.
+    ///
+    /// The meshes below one coating differ in any case: each varies the seed by the path of names that leads to it.
+    pub seed: Option<u64>,
+    /// Resolution. Default: [`DEFAULT_TRIANGLES`] triangles, which all films of the coating share by area. An edge length
+    /// holds for each film.
     pub resolution: FilmResolution,
-    /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 or more and finite, default 1.
+    /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 to 1,000
+    /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1. If it is set out of range while the film ages, a warning
+    /// says so and the film keeps the rate that it had.
     pub rate: f64,
-    /// Whether this prop stops ageing; [requested steps](super::clock::CoatingClock::request_steps) are still taken.
-    /// Default false.
+    /// Whether this prop stands still. It takes no steps, not even
+    /// [requested](super::clock::CoatingClock::request_steps) ones, and goes on from where it was. Default false.
     pub paused: bool,
-    /// Age to which the film is aged in the background before the prop shows it. 0 or more and finite, default 0
-    /// (fresh).
+    /// Age to which the film is aged in the background before the prop shows it. 0 to 10
+    /// ([`MAX_START_AGE`](super::limits::MAX_START_AGE)), default 0 (fresh).
     pub start_age: f64,
-    /// Number of steps per unit of age. At least 1, default 1000. The result hardly depends on it; more steps cost
-    /// more.
+    /// Weather in which the film is aged to its [start age](Self::start_age). `None`, the default: still air, neither
+    /// rain nor sun. Today's [weather](super::weather::CoatingWeather) does not reach back, so a prop that is spawned in
+    /// a storm looks like one that is spawned before it.
+    pub past_weather: Option<CoatingWeather>,
+    /// Number of steps per unit of age. 1 to 100,000 ([`MAX_STEPS_PER_AGE`](super::limits::MAX_STEPS_PER_AGE)), default
+    /// 1,000. The result hardly depends on it; more steps cost more.
     pub steps_per_age: u32,
     /// Quality of the solver that bends the film. Default: [`SolverQuality::Default`].
     pub quality: SolverQuality,
@@ -78,22 +93,27 @@ pub struct Coating {
     /// Colours and strengths of stains, of the metal under the paint and of the paint's back. Default:
     /// [`FilmShading::default`].
     pub shading: FilmShading,
+    /// Sides and holes of backs and metal where the prop's material is not a `StandardMaterial`. Default:
+    /// [`PropOutline::default`], front sides without holes.
+    pub outline: PropOutline,
 }
 
 impl Default for Coating {
     fn default() -> Self {
         Self {
             settings: SettingsSource::default(),
-            seed: 0,
+            seed: None,
             resolution: FilmResolution::Triangles(DEFAULT_TRIANGLES),
             rate: 1.0,
             paused: false,
             start_age: 0.0,
+            past_weather: None,
             steps_per_age: DEFAULT_STEPS_PER_AGE,
             quality: SolverQuality::default(),
             shelter: Shelter::default(),
             stain_display: StainDisplay::default(),
             shading: FilmShading::default(),
+            outline: PropOutline::default(),
         }
     }
 }
@@ -130,8 +150,16 @@ impl Coating {
     }
 
     /// Sets the [`seed`](Self::seed) of all random choices.
+    ///
+    /// ```
+    /// use bevy_coating::prelude::*;
+    ///
+    /// let twins = [0, 1].map(|_| Coating::default().with_seed(7));
+    /// assert_eq!(twins[0].seed, Some(7));
+    /// assert_eq!(Coating::default().seed, None, "by default each place has a seed of its own");
+    /// ```
     pub fn with_seed(self, seed: u64) -> Self {
-        Self { seed, ..self }
+        Self { seed: Some(seed), ..self }
     }
 
     /// Sets the [`resolution`](Self::resolution) to about `triangles` triangles. At least 4.
@@ -168,6 +196,21 @@ impl Coating {
     /// ```
     pub fn with_start_age(self, start_age: f64) -> Self {
         Self { start_age, ..self }
+    }
+
+    /// Sets the [`past_weather`](Self::past_weather) in which the film is aged to its start age.
+    ///
+    /// ```
+    /// use bevy::math::Vec3;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// // A boat that has lain in the rain for years.
+    /// let rainy = CoatingWeather { rain: Vec3::NEG_Y, ..CoatingWeather::default() };
+    /// let boat = Coating::default().with_start_age(0.8).with_past_weather(rainy);
+    /// assert_eq!(boat.past_weather, Some(rainy));
+    /// ```
+    pub fn with_past_weather(self, weather: CoatingWeather) -> Self {
+        Self { past_weather: Some(weather), ..self }
     }
 
     /// Sets the number of [`steps_per_age`](Self::steps_per_age).
@@ -233,6 +276,11 @@ impl Coating {
         Self { shading: FilmShading { metal, ..self.shading }, ..self }
     }
 
+    /// Sets the [`outline`](Self::outline) of a prop whose material is not a `StandardMaterial`.
+    pub fn with_outline(self, outline: PropOutline) -> Self {
+        Self { outline, ..self }
+    }
+
     /// Sets the colours and strengths of stains.
     pub fn with_stains(self, stains: StainShading) -> Self {
         Self { shading: FilmShading { stains, ..self.shading }, ..self }
@@ -244,6 +292,7 @@ impl Coating {
             seed: self.seed,
             resolution: self.resolution,
             start_age: self.start_age,
+            past_weather: self.past_weather.filter(|_| self.start_age > 0.0),
             steps_per_age: self.steps_per_age,
         }
     }
@@ -252,9 +301,11 @@ impl Coating {
 /// Fields of a [`Coating`] that decide how a film is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FilmKey {
-    pub seed: u64,
+    pub seed: Option<u64>,
     pub resolution: FilmResolution,
     pub start_age: f64,
+    /// Weather of the past; `None` also where there is no past.
+    pub past_weather: Option<CoatingWeather>,
     pub steps_per_age: u32,
 }
 

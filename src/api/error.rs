@@ -34,11 +34,13 @@ pub enum CoatingFault {
     /// Mesh with morph targets in use.
     #[error("its mesh is morphed; bake the shape into a mesh without morph targets")]
     Morphed,
-    /// Material that is alpha-blended.
-    #[error(
-        "its material is alpha-blended; use `AlphaMode::Opaque` or `AlphaMode::Mask`, or coat the other parts only"
-    )]
+    /// Material that is alpha-blended, of a mesh that has a `Coating` itself. Below a coating such meshes are left alone.
+    #[error("its material is alpha-blended; use `AlphaMode::Opaque` or `AlphaMode::Mask`")]
     AlphaBlended,
+    /// Material that light passes through, of a mesh that has a `Coating` itself. Below a coating such meshes are left
+    /// alone.
+    #[error("light passes through its material; set `StandardMaterial::specular_transmission` to 0")]
+    Transmissive,
     /// Material other than `StandardMaterial`, while stains are to be drawn by a material
     /// ([`StainDisplay::Material`](super::stain_display::StainDisplay::Material)).
     #[error(

@@ -1,18 +1,31 @@
 //! Links the entities of a coating: its root, its films, the prop's meshes and the children that the plugin spawns.
 
 use bevy::{
-    asset::Handle,
-    ecs::{component::Component, entity::Entity, reflect::ReflectComponent},
-    math::Vec3,
+    asset::{AssetId, Handle},
+    ecs::{
+        component::{Component, ComponentId},
+        entity::Entity,
+        reflect::ReflectComponent,
+    },
+    math::{Affine3A, Vec3},
     mesh::Mesh,
     reflect::prelude::*,
+    transform::components::GlobalTransform,
 };
 
-use super::coating::FilmKey;
+#[cfg(feature = "render")]
+use bevy::pbr::StandardMaterial;
+
+use super::{
+    coating::{FilmKey, SettingsSource},
+    error::CoatingFault,
+    shelter::Shelter,
+    stain_display::StainDisplay,
+};
 
 /// Link from the entity of a film to the entity with its [`Coating`](super::coating::Coating).
 ///
-/// It is present while the film is being built and afterwards.
+/// It is present while the film is being built and afterwards. It is neither cloned nor saved with a scene.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -34,41 +47,108 @@ use super::coating::FilmKey;
 /// app.update();
 /// ```
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
-#[reflect(Component, Debug, Clone, PartialEq)]
+#[component(clone_behavior = Ignore)]
+#[reflect(Debug, Clone, PartialEq)]
 pub struct CoatedBy(pub Entity);
 
 /// Marker of the entities that the plugin spawns to draw the backs of flakes and the bare metal. They are children of
-/// the film's entity.
+/// the entities of the prop's meshes, and have their render layers, shadow flags and visibility.
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Default, Debug, Clone)]
 pub struct CoatingPart;
 
 /// Origin of a film: its meshes and the fields with which it was built.
 #[derive(Component, Clone, Debug)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct FilmSource {
     /// Fields of the coating with which the film was built.
     pub key: FilmKey,
-    /// Entities whose meshes make up the film, by slot.
+    /// Seed of the film.
+    pub seed: u64,
+    /// Entities whose meshes make up the film, by slot; [`Entity::PLACEHOLDER`] for a slot that has left the film.
     pub slots: Vec<Entity>,
-    /// World scale at which the film was built: a position of the film is scale * position in the mesh.
+    /// World scale at which the film was built.
     pub scale: Vec3,
+    /// Point of the scaled mesh that is zero in the film's space: a position of the film is scale * position in the mesh
+    /// - origin.
+    pub origin: Vec3,
+    /// Area of the meshes, in square metres.
+    pub area: f64,
+    /// Whether each face belongs to a slot that has left the film; empty while none has.
+    pub hidden: Vec<bool>,
+    /// Fields of a coating with which no other film could be built, so that it is not tried again and again.
+    pub refused: Option<FilmKey>,
 }
+
+impl FilmSource {
+    /// Returns the film's space in the world, which is rotated and moved, but not scaled.
+    pub fn place(&self, transform: &GlobalTransform) -> Affine3A {
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        Affine3A::from_rotation_translation(rotation, translation + rotation * self.origin)
+    }
+
+    /// Returns the slots that are part of the film.
+    pub fn live_slots(&self) -> impl Iterator<Item = Entity> {
+        self.slots.iter().copied().filter(|&slot| slot != Entity::PLACEHOLDER)
+    }
+}
+
+/// Marker of a film that is to be built again, because its coating changed. The film stays until the new one is ready.
+#[derive(Component, Clone, Copy, Debug)]
+#[component(clone_behavior = Ignore)]
+pub(crate) struct FilmOutdated;
 
 /// Marker of a mesh entity whose film has not been begun yet.
 #[derive(Component, Clone, Copy, Debug)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct AwaitingFilm {
     /// Entity with the coating.
     pub root: Entity,
 }
 
-/// Marker of a mesh entity that could not be coated. It is kept until the mesh or the coating changes.
-#[derive(Component, Clone, Copy, Debug)]
+/// Marker of a mesh entity that could not be coated. It is kept until the mesh is coated, so that the same fault is told
+/// once only.
+#[derive(Component, Clone, Debug)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct FilmRefused {
     /// Entity with the coating.
     pub root: Entity,
+    /// Entity that the film would have been on.
+    pub film: Entity,
+    /// Fault of the prop.
+    pub cause: CoatingFault,
+    /// Things that the fault may lie in, as they were.
+    pub seen: Suspects,
 }
 
-/// Link from a mesh entity to its film, which is being built or ready.
+/// Marker of a mesh entity below a coating that is left alone, because its material is like glass.
+#[derive(Component, Clone, Debug)]
+#[component(clone_behavior = Ignore)]
+pub(crate) struct LeftAlone {
+    /// Entity with the coating.
+    pub root: Entity,
+    /// Things that decided this, as they were.
+    pub seen: Suspects,
+}
+
+/// Everything that a refusal may depend on. When it changes, the mesh is looked at again.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Suspects {
+    /// Mesh of the entity.
+    pub mesh: AssetId<Mesh>,
+    /// Material of the entity.
+    #[cfg(feature = "render")]
+    pub material: Option<AssetId<StandardMaterial>>,
+    /// Types of the entity's components other than the plugin's own.
+    pub components: Vec<ComponentId>,
+    /// Fields of the coating.
+    pub coating: (FilmKey, SettingsSource, StainDisplay, Shelter, bool),
+    /// World scale of the entity.
+    pub scale: [u32; 3],
+}
+
+/// Link from a mesh entity to its film, which is being built or ready. The clone of an entity is linked to the film of
+/// the original until `attach` has given it one of its own.
 #[derive(Component, Clone, Debug)]
 pub(crate) struct FilmSlot {
     /// Entity of the film.

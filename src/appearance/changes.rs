@@ -1,10 +1,7 @@
 //! The signal that tells display what changed on a film.
 
 #[cfg(feature = "plugin")]
-use bevy::{
-    ecs::{component::Component, reflect::ReflectComponent},
-    reflect::prelude::*,
-};
+use bevy::{ecs::component::Component, reflect::prelude::*};
 
 use crate::{film::FilmChanges, stain::StainFields};
 
@@ -25,7 +22,8 @@ use crate::{film::FilmChanges, stain::StainFields};
 #[cfg_attr(
     feature = "plugin",
     derive(Component, Reflect),
-    reflect(Component, Default, Debug, Clone, PartialEq),
+    component(clone_behavior = Ignore),
+    reflect(Default, Debug, Clone, PartialEq),
     type_path = "bevy_coating::appearance"
 )]
 pub struct DisplayChanges {

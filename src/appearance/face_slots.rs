@@ -11,6 +11,8 @@ use crate::{
 pub(super) struct FaceSlots {
     slots: Vec<u32>,
     flipped: Vec<bool>,
+    /// Whether each slot is hidden.
+    hidden: Vec<bool>,
 }
 
 impl FaceSlots {
@@ -20,12 +22,30 @@ impl FaceSlots {
         let (mut slots, mut flipped) = (built.slots.clone(), built.flipped.clone());
         slots.resize(faces, 0);
         flipped.resize(faces, false);
-        Self { slots, flipped }
+        let count = slots.iter().max().map_or(0, |&slot| slot as usize + 1);
+        Self { slots, flipped, hidden: vec![false; count] }
     }
 
     /// Returns the number of slots: the highest slot of a face and one.
     pub fn slot_count(&self) -> usize {
-        self.slots.iter().max().map_or(0, |&slot| slot as usize + 1)
+        self.hidden.len()
+    }
+
+    /// Hides the faces of slot `slot` for good.
+    pub fn hide(&mut self, slot: usize) {
+        if let Some(hidden) = self.hidden.get_mut(slot) {
+            *hidden = true;
+        }
+    }
+
+    /// Returns whether each face is in a slot that is hidden.
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.slots.iter().map(|&slot| self.hidden[slot as usize]).collect()
+    }
+
+    /// Returns whether `f` is in a slot that is hidden.
+    pub fn is_hidden(&self, f: FaceId) -> bool {
+        self.hidden[self.slot(f)]
     }
 
     /// Returns the slot of `f`.

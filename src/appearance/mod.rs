@@ -9,7 +9,8 @@
 //! | [`FilmAppearance::metal`] | faces that have separated or are gone, at rest, just under the film | never |
 //!
 //! A face has separated when any of its vertices has. Faces that are still attached have neither back nor metal, so
-//! a fresh film looks exactly like the prop that it was made of. The plugin's meshes and baked models are made of the
+//! a fresh film looks exactly like the prop that it was made of. Each slot, which is a primitive of the prop with a
+//! material of its own, has its own front, backs and metal. The plugin's meshes and baked models are made of the
 //! same arrays. Colours, roughness and relief of stained surfaces are computed in [`shading`].
 //!
 //! ```
@@ -20,11 +21,12 @@
 //! let (piece, settings) = (sample::plate(200, 1)?, CoatingSettings::default());
 //! let mut film = FilmState::new(&piece.film, &settings, 0, 100).ok_or("an empty film")?;
 //! let fresh = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
-//! assert!(fresh.backs().is_empty() && fresh.metal().is_empty(), "fresh paint hides the metal");
+//! assert_eq!(fresh.slot_count(), 1, "the plate is one primitive");
+//! assert!(fresh.metal(0).is_some_and(|metal| metal.is_empty()), "fresh paint hides the metal");
 //!
 //! film.age_to(1.0, &settings, &Environment::default());
 //! let aged = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
-//! assert!(!aged.metal().is_empty(), "aged paint has separated");
+//! assert!(aged.metal(0).is_some_and(|metal| !metal.is_empty()), "aged paint has separated");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -32,6 +34,7 @@ mod backs;
 mod changes;
 mod corners;
 mod face_slots;
+mod in_slots;
 mod metal;
 mod moves;
 mod normals;
@@ -100,10 +103,10 @@ impl FilmAppearance {
             wedges: Wedges::new(mesh, &attributes, &face_slots),
             moves: Moves::default(),
             fronts: vec![MeshPart::default(); face_slots.slot_count()],
+            backs: Backs::new(face_slots.slot_count()),
+            metal: Metal::new(face_slots.slot_count()),
             attributes,
             face_slots,
-            backs: Backs::default(),
-            metal: Metal::default(),
             epoch: 0,
         };
         appearance.update(mesh, forces, stains, DisplayChanges::everything());
@@ -120,14 +123,27 @@ impl FilmAppearance {
         self.fronts.get(slot)
     }
 
-    /// Returns the backs of the flakes of all slots in one part, without texture coordinates, tangents and colours.
-    pub fn backs(&self) -> &MeshPart {
-        &self.backs.part
+    /// Returns the backs of the flakes in one slot, without tangents; `None` if `slot` is not below
+    /// [`slot_count`](Self::slot_count).
+    pub fn backs(&self, slot: usize) -> Option<&MeshPart> {
+        self.backs.parts.get(slot)
     }
 
-    /// Returns the bare metal of all slots in one part, with first texture coordinates where the prop has some.
-    pub fn metal(&self) -> &MeshPart {
-        &self.metal.part
+    /// Returns the bare metal in one slot, without tangents; `None` if `slot` is not below
+    /// [`slot_count`](Self::slot_count).
+    pub fn metal(&self, slot: usize) -> Option<&MeshPart> {
+        self.metal.parts.get(slot)
+    }
+
+    /// Hides slot `slot` for good: its faces have no front, no back and no metal from the next update on, which must
+    /// count as a change of everything.
+    pub fn hide_slot(&mut self, slot: usize) {
+        self.face_slots.hide(slot);
+    }
+
+    /// Returns whether each face is in a slot that is [hidden](Self::hide_slot).
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.face_slots.hidden_faces()
     }
 
     /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
@@ -151,7 +167,7 @@ impl FilmAppearance {
             self.write_front_frames(mesh);
         }
         if tore || exposed {
-            self.backs.renew(topology, forces, &self.face_slots, &self.wedges);
+            self.backs.renew(topology, forces, &self.face_slots, &self.wedges, &self.fronts);
         }
         if moved || tore || exposed {
             self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
@@ -207,7 +223,7 @@ impl FilmAppearance {
         for part in &mut self.fronts {
             part.indices.clear();
         }
-        for f in topology.live_faces() {
+        for f in topology.live_faces().filter(|&f| !self.face_slots.is_hidden(f)) {
             let corners = self.face_slots.corners(f).map(|h| self.wedges.vertex_of(h));
             if let Some(part) = self.fronts.get_mut(self.face_slots.slot(f)) {
                 part.indices.extend(corners);

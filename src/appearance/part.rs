@@ -1,6 +1,7 @@
 //! Defines [`MeshPart`], the vertex arrays of one part of a film's appearance.
 
 use super::shading::StainSample;
+use crate::stain::shown::MOST_LAYERS;
 
 /// Vertices and triangles of one part of a film's appearance (front, backs or metal), in the film's space.
 ///
@@ -26,14 +27,15 @@ pub struct MeshPart {
     pub positions: Vec<[f32; 3]>,
     /// Normals, of unit length.
     pub normals: Vec<[f32; 3]>,
-    /// First texture coordinates; empty if the prop has none, and for backs.
+    /// First texture coordinates; empty if the prop has none.
     pub uvs: Vec<[f32; 2]>,
-    /// Second texture coordinates; empty if the prop has none, and for backs and metal.
+    /// Second texture coordinates; empty if the prop has none.
     pub uvs_1: Vec<[f32; 2]>,
     /// Tangents of unit length, with the handedness in the fourth component; empty if the prop has none, and for backs
     /// and metal.
     pub tangents: Vec<[f32; 4]>,
-    /// Linear vertex colours with alpha; empty if the prop has none, and for backs and metal.
+    /// Linear vertex colours of the prop with alpha; empty if it has none. Of backs and metal, which have colours of
+    /// their own, only the alpha counts: it cuts holes where the prop's material is a mask.
     pub colors: Vec<[f32; 4]>,
     /// Stains of each vertex: layers of rust that has run off (0 to 1; more is cut off), dust (0 to 1), moisture (0 to
     /// 1), and corrosion of the metal at this place (0 bright to 1 rusted through).
@@ -46,10 +48,6 @@ pub struct MeshPart {
     /// Vertex indices, three a triangle. Fronts and metal are wound as the prop's own triangles, backs the other way.
     pub indices: Vec<u32>,
 }
-
-/// Layers of rust beyond which more rust looks the same. Without this limit almost the whole edge between a vertex with
-/// many layers and a clean vertex would be covered, and stains would show the outlines of triangles.
-const MOST_LAYERS: f32 = 1.0;
 
 /// Returns the entry of [`MeshPart::stains`] for a vertex with `layers` of rust.
 pub(super) fn vertex_stains(layers: f32, dust: f32, moisture: f32, corrosion: f32) -> [f32; 4] {

@@ -31,7 +31,8 @@ fn a_fresh_film_is_the_prop_and_nothing_else() {
     assert_eq!(appearance.slot_count(), 1);
     assert_eq!(front.indices.len(), 1800);
     assert_eq!(front.positions.len(), film.mesh.topology.vertex_count(), "one vertex each on a smooth plate");
-    assert!(appearance.backs().is_empty() && appearance.metal().is_empty());
+    assert!([appearance.backs(0), appearance.metal(0)].iter().flatten().all(|part| part.is_empty()));
+    assert_eq!([appearance.backs(1), appearance.metal(1)], [None; 2], "there is one slot");
     for (t, f) in triangles(front).zip(film.mesh.topology.all_faces()) {
         for (i, k) in t.into_iter().zip(0..3) {
             let corner = f.index() * 3 + k;
@@ -50,13 +51,14 @@ fn backs_and_metal_show_where_film_separated_and_only_there() {
     let removed = topology.face_count() - topology.live_faces().count();
     assert!(separated > 100 && removed > 2, "{separated} {removed}");
     assert_eq!(appearance.front(0).unwrap().indices.len(), topology.live_faces().count() * 3);
-    assert_eq!(appearance.backs().indices.len(), separated * 3);
-    assert_eq!(appearance.metal().indices.len(), (separated + removed) * 3);
+    let (backs, metal) = (appearance.backs(0).unwrap(), appearance.metal(0).unwrap());
+    assert_eq!(backs.indices.len(), separated * 3);
+    assert_eq!(metal.indices.len(), (separated + removed) * 3);
     // The metal lies flat, just under the film at rest, facing out; backs face the other way than their fronts.
     let depth = film.mesh.geometry.mean_edge * METAL_DEPTH;
-    assert!(appearance.metal().positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
-    assert!(appearance.metal().normals.iter().all(|n| n[2] > 0.99999));
-    for part in [appearance.metal(), appearance.backs(), appearance.front(0).unwrap()] {
+    assert!(metal.positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
+    assert!(metal.normals.iter().all(|n| n[2] > 0.99999));
+    for part in [metal, backs, appearance.front(0).unwrap()] {
         assert_eq!(part.positions.len(), part.normals.len());
         let mut agree = 0;
         for t in triangles(part) {
@@ -64,6 +66,39 @@ fn backs_and_metal_show_where_film_separated_and_only_there() {
             agree += usize::from((b - a).cross(c - a).dot(at(&part.normals, t[0])) > 0.0);
         }
         assert!(agree * 3 > part.indices.len() * 95 / 100, "winding agrees with normals: {agree}");
+    }
+}
+
+#[test]
+fn each_slot_has_backs_and_metal_of_its_own_with_its_coordinates() {
+    let mut piece = sample::plate(600, 4).unwrap();
+    // The right half of the plate is another primitive.
+    let xs = || piece.film.positions.iter().map(|p| p.x);
+    let middle = (xs().fold(f32::MAX, f32::min) + xs().fold(f32::MIN, f32::max)) / 2.0;
+    let slot =
+        |t: &[u32; 3]| u32::from(t.iter().map(|&v| piece.film.positions[v as usize].x).sum::<f32>() > 3.0 * middle);
+    piece.film.slots = piece.film.triangles.iter().map(slot).collect();
+    let settings = CoatingSettings::default();
+    let mut film = FilmState::new(&piece.film, &settings, 4, 100).unwrap();
+    film.age_to(0.8, &settings, &Environment::default());
+    let appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let topology = &film.mesh.topology;
+    let separated = |f: &crate::film::FaceId| has_separated(topology, &film.forces, *f);
+    for slot in 0..2u32 {
+        let here = |f: &crate::film::FaceId| piece.film.slots[f.index()] == slot;
+        let backs = topology.live_faces().filter(here).filter(separated).count();
+        let gone = topology.all_faces().filter(here).filter(|&f| !topology.is_live(f)).count();
+        let part = |part: Option<&MeshPart>| part.unwrap().clone();
+        let (back, metal) = (part(appearance.backs(slot as usize)), part(appearance.metal(slot as usize)));
+        assert!(backs > 20, "slot {slot}");
+        assert_eq!((back.indices.len(), metal.indices.len()), (backs * 3, (backs + gone) * 3), "slot {slot}");
+        for part in [back, metal] {
+            let count = part.positions.len();
+            assert_eq!([part.normals.len(), part.uvs.len(), part.stains.len()], [count; 3], "slot {slot}");
+            let edge = film.mesh.geometry.mean_edge;
+            let inside = |p: &[f32; 3]| if slot == 1 { p[0] > middle - edge } else { p[0] < middle + edge };
+            assert!(part.rest.iter().all(inside), "slot {slot} keeps to its side");
+        }
     }
 }
 
@@ -107,7 +142,9 @@ fn normals_follow_the_film_as_it_bends() {
 /// Every array of every part.
 fn arrays(appearance: &FilmAppearance) -> Vec<MeshPart> {
     let fronts = (0..appearance.slot_count()).filter_map(|slot| appearance.front(slot));
-    fronts.chain([appearance.backs(), appearance.metal()]).cloned().collect()
+    let backs = (0..appearance.slot_count()).filter_map(|slot| appearance.backs(slot));
+    let metal = (0..appearance.slot_count()).filter_map(|slot| appearance.metal(slot));
+    fronts.chain(backs).chain(metal).cloned().collect()
 }
 
 #[test]

@@ -1,179 +1,244 @@
-//! Begins to build films: groups meshes, waits for their assets, and refuses meshes that cannot be coated.
-
-use std::sync::Arc;
+//! Begins to build films: waits for the assets of a prop's meshes, leaves glass alone, and refuses meshes that cannot be
+//! coated.
 
 use bevy::{
+    asset::AssetServer,
     ecs::{
         entity::Entity,
-        hierarchy::{ChildOf, Children},
-        reflect::AppTypeRegistry,
+        query::With,
         system::{Commands, Query},
-        world::{EntityRef, World},
+        world::World,
     },
+    log::warn,
     math::Vec3,
-    mesh::{Mesh3d, skinning::SkinnedMesh},
+    mesh::Mesh3d,
     tasks::AsyncComputeTaskPool,
-    transform::components::{GlobalTransform, Transform},
+    transform::components::GlobalTransform,
 };
 
 use super::{
     build::{FilmBuild, FilmOrder, build_film},
-    finish::refuse,
+    finish::{keep_old, refuse},
+    group::group_of,
+    hierarchy::path_to,
+    order::{FilmInputs, inputs_of},
+    share::{area_of_film, area_of_slots, share},
+    suspects::suspects_of,
 };
-#[cfg(feature = "render")]
-use crate::{api::stain_display::StainDisplay, display::CoatedMaterial};
 use crate::{
     api::{
-        assets::{Waited, loaded},
-        clock::CoatingGravity,
-        coating::{Coating, SettingsSource},
+        assets::Waited,
+        coating::Coating,
         error::CoatingFault,
-        links::{AwaitingFilm, CoatedBy, FilmSlot},
-        shelter::Shelter,
-        weather::CoatingWeather,
+        links::{AwaitingFilm, CoatedBy, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
+        seed::CoatingSeed,
     },
     display::FilmPaint,
-    settings::CoatingSettings,
-    shelter::ShelterScene,
+    remesh::FilmResolution,
+    sim::{film_seed, place_seed},
 };
 
-/// Begins to build the films of all awaiting meshes whose assets are loaded.
-pub(super) fn begin_builds(world: &World, mut commands: Commands, awaiting: Query<(Entity, &AwaitingFilm)>) {
-    let mut done: Vec<Entity> = Vec::new();
-    for (entity, &AwaitingFilm { root }) in &awaiting {
-        if done.contains(&entity) {
+/// Query of the films that are ready or being built.
+type Films<'w, 's> =
+    Query<'w, 's, (Entity, &'static CoatedBy, Option<&'static FilmSource>, Option<&'static FilmBuild>)>;
+
+/// Film to be built.
+struct Candidate {
+    film: Entity,
+    /// Entities whose meshes make up the film, by slot.
+    slots: Vec<Entity>,
+    /// Area of the meshes, if it is known.
+    area: Option<f64>,
+    /// Whether the film replaces an older one.
+    renews: bool,
+}
+
+/// Begins to build the films of all awaiting meshes whose assets are loaded, and of all films that are outdated.
+pub(super) fn begin_builds(
+    world: &World,
+    mut commands: Commands,
+    awaiting: Query<(Entity, &AwaitingFilm)>,
+    outdated: Query<(Entity, &CoatedBy, &FilmSource), With<FilmOutdated>>,
+    films: Films,
+    refused: Query<&FilmRefused>,
+) {
+    // Coating by coating, as the films of one share its triangles.
+    let mut members: Vec<(Entity, Option<Entity>)> =
+        awaiting.iter().map(|(entity, awaiting)| (awaiting.root, Some(entity))).collect();
+    members.extend(outdated.iter().map(|(_, coated_by, _)| (coated_by.0, None)));
+    members.sort_unstable();
+    for group in members.chunk_by(|(a, _), (b, _)| a == b) {
+        let Some(&(root, _)) = group.first() else { continue };
+        let Some(coating) = world.get::<Coating>(root) else { continue };
+        let meshes: Vec<Entity> = group.iter().filter_map(|&(_, mesh)| mesh).collect();
+        let meshes = leave_glass_alone(world, &mut commands, root, meshes);
+        if is_shared(coating) && meshes.iter().any(|&mesh| is_loading(world, mesh)) {
+            // The shares are known when all meshes are.
             continue;
         }
-        let Some(coating) = world.get::<Coating>(root) else { continue };
-        let (film, slots) = group_of(world, entity, root);
-        done.extend(&slots);
-        let order = match order_film(world, film, root, &slots, coating) {
-            Ok(None) => continue,
-            Ok(Some(order)) => order,
+        let mut candidates = group_meshes(world, root, &meshes);
+        candidates.extend(outdated.iter().filter(|(_, coated_by, _)| coated_by.0 == root).map(|(film, _, source)| {
+            Candidate { film, slots: source.live_slots().collect(), area: Some(source.area), renews: true }
+        }));
+        begin_films(world, &mut commands, root, coating, candidates, &films, &refused);
+    }
+}
+
+/// Returns whether the films of `coating` share its triangles.
+fn is_shared(coating: &Coating) -> bool {
+    matches!(coating.resolution, FilmResolution::Triangles(_))
+}
+
+/// Returns whether the mesh asset of `entity` is being loaded.
+fn is_loading(world: &World, entity: Entity) -> bool {
+    let server = world.get_resource::<AssetServer>();
+    world.get::<Mesh3d>(entity).zip(server).is_some_and(|(mesh, server)| server.load_state(mesh.id()).is_loading())
+}
+
+/// Takes meshes with materials like glass out of those that await a film, and returns the others. A mesh that has the
+/// coating itself is refused later.
+fn leave_glass_alone(world: &World, commands: &mut Commands, root: Entity, mut meshes: Vec<Entity>) -> Vec<Entity> {
+    let mut left = 0;
+    meshes.retain(|&mesh| {
+        let glass = mesh != root && matches!(transparency(world, mesh), Ok(Some(Some(_))));
+        if glass && let Some(seen) = suspects_of(world, mesh, root) {
+            left += 1;
+            commands.entity(mesh).try_remove::<(AwaitingFilm, FilmRefused)>().try_insert(LeftAlone { root, seen });
+        }
+        !glass
+    });
+    if left > 0 {
+        warn!(
+            "coating {root} leaves {left} of its meshes as they are: their materials are alpha-blended or transmissive; \
+             `CoatingExclude` on them says that this is meant, another `AlphaMode` coats them"
+        );
+    }
+    meshes
+}
+
+/// Returns why one looks through the mesh of `entity`; see [`transparency_of`](crate::display::transparency_of).
+#[cfg(feature = "render")]
+fn transparency(world: &World, entity: Entity) -> Waited<Option<CoatingFault>> {
+    world.get_entity(entity).map_or(Ok(None), |entity| crate::display::transparency_of(world, entity))
+}
+
+/// Returns that every mesh is opaque, as there are no materials.
+#[cfg(not(feature = "render"))]
+fn transparency(_: &World, _: Entity) -> Waited<Option<CoatingFault>> {
+    Ok(Some(None))
+}
+
+/// Groups the awaiting meshes of a coating by the films that they share.
+fn group_meshes(world: &World, root: Entity, meshes: &[Entity]) -> Vec<Candidate> {
+    let mut candidates: Vec<Candidate> = Vec::new();
+    let mut done: Vec<Entity> = Vec::new();
+    for &mesh in meshes {
+        if done.binary_search(&mesh).is_ok() {
+            continue;
+        }
+        let (film, slots) = group_of(world, mesh, root, |mesh| meshes.binary_search(&mesh).is_ok());
+        if slots.len() > 1 {
+            done.extend(&slots);
+            done.sort_unstable();
+        }
+        candidates.push(Candidate { film, slots, area: None, renews: false });
+    }
+    candidates
+}
+
+/// Begins the builds of those films of a coating whose inputs are complete.
+fn begin_films(
+    world: &World,
+    commands: &mut Commands,
+    root: Entity,
+    coating: &Coating,
+    candidates: Vec<Candidate>,
+    films: &Films,
+    refused: &Query<&FilmRefused>,
+) {
+    let mut found = Vec::with_capacity(candidates.len());
+    for candidate in candidates {
+        match check_candidate(world, root, coating, &candidate) {
+            Ok(inputs) => found.push((candidate, inputs)),
+            Err(fault) if candidate.renews => keep_old(commands, candidate.film, root, coating.key(), fault),
             Err(fault) => {
-                refuse(&mut commands, film, root, &slots, fault);
-                continue;
+                let seen = candidate.slots.iter().map(|&slot| (slot, suspects_of(world, slot, root))).collect();
+                refuse(commands, candidate.film, root, seen, refused, fault);
             }
-        };
+        }
+    }
+    if found.iter().all(|(_, inputs)| inputs.is_none()) {
+        return;
+    }
+    // Meshes that still wait for something count, so that shares do not depend on the order in which assets arrive.
+    let areas: Vec<f64> = found.iter().map(|(candidate, _)| area_of(world, coating, candidate)).collect();
+    let others = films.iter().filter(|(film, coated_by, ..)| {
+        coated_by.0 == root && !found.iter().any(|(candidate, _)| candidate.film == *film)
+    });
+    let others: Vec<f64> = others.filter_map(|(.., source, build)| area_of_film(source, build)).collect();
+    let resolutions = share(coating.resolution, &areas, &others);
+    let base = coating.seed.unwrap_or_else(|| seed_of_place(world, commands, root));
+    for (((candidate, inputs), resolution), area) in found.into_iter().zip(resolutions).zip(areas) {
+        let Some(inputs) = inputs else { continue };
+        let seed = film_seed(base, &path_to(world, root, candidate.film));
+        let paint = FilmPaint::new(coating, seed, Vec3::ZERO);
+        let order = FilmOrder { inputs, resolution, seed, paint };
+        begin(world, commands, root, candidate, order, area);
+    }
+}
+
+/// Collects the inputs of a film; `None` while something is being loaded.
+///
+/// # Errors
+/// [`CoatingFault`] if the meshes cannot be coated.
+fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &Candidate) -> Waited<FilmInputs> {
+    // The meshes of a film that is shown have been found opaque, and wear stained materials now.
+    let unseen: &[Entity] = if candidate.renews { &[] } else { &candidate.slots };
+    for &slot in unseen {
+        match transparency(world, slot)? {
+            Some(None) => (),
+            Some(Some(fault)) => return Err(fault),
+            None => return Ok(None),
+        }
+    }
+    inputs_of(world, candidate.film, root, &candidate.slots, coating)
+}
+
+/// Returns the area of a film that shares its coating's triangles.
+fn area_of(world: &World, coating: &Coating, candidate: &Candidate) -> f64 {
+    match candidate.area {
+        Some(area) => area,
+        None if is_shared(coating) => area_of_slots(world, &candidate.slots),
+        None => 0.0,
+    }
+}
+
+/// Returns the seed that was drawn for the coating on `root`, or draws it from its place.
+fn seed_of_place(world: &World, commands: &mut Commands, root: Entity) -> u64 {
+    world.get::<CoatingSeed>(root).map_or_else(
+        || {
+            let place = world.get::<GlobalTransform>(root).copied().unwrap_or_default().translation();
+            let seed = CoatingSeed(place_seed(place));
+            commands.entity(root).try_insert(seed);
+            seed.0
+        },
+        |seed| seed.0,
+    )
+}
+
+/// Begins the build of one film.
+fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candidate, order: FilmOrder, area: f64) {
+    let Candidate { film, slots, renews, .. } = candidate;
+    if !renews {
         for &slot in &slots {
             let Some(mesh) = world.get::<Mesh3d>(slot) else { continue };
             let claim = FilmSlot { film, original: mesh.0.clone(), display_mesh: None };
             commands.entity(slot).try_remove::<AwaitingFilm>().try_insert(claim);
         }
-        let (key, scale) = (order.key, order.scale);
-        let task = AsyncComputeTaskPool::get().spawn(async move { build_film(&order) });
-        commands.entity(film).try_insert((CoatedBy(root), FilmBuild { task, root, slots, key, scale }));
     }
-}
-
-/// Returns the entity of the film for the mesh of `entity`, and the entities of all meshes that share it: its siblings
-/// with an identity transform, unless the parent has a mesh itself.
-fn group_of(world: &World, entity: Entity, root: Entity) -> (Entity, Vec<Entity>) {
-    let alone = (entity, vec![entity]);
-    let in_place = |e: Entity| world.get::<Transform>(e).is_some_and(|t| *t == Transform::IDENTITY);
-    let Some(&ChildOf(parent)) = world.get::<ChildOf>(entity) else { return alone };
-    if entity == root || !in_place(entity) || world.get::<Mesh3d>(parent).is_some() {
-        return alone;
-    }
-    let belongs = |e: Entity| in_place(e) && world.get::<AwaitingFilm>(e).is_some_and(|a| a.root == root);
-    let siblings = world.get::<Children>(parent).into_iter().flatten();
-    let group: Vec<Entity> = siblings.copied().filter(|&e| e != root && belongs(e)).collect();
-    // A parent that carries a film already cannot carry another.
-    if group.len() < 2 || world.get::<CoatedBy>(parent).is_some() { alone } else { (parent, group) }
-}
-
-/// Collects the inputs of a build; `None` while assets are loading or shelters are not known.
-///
-/// # Errors
-/// [`CoatingFault`] if the meshes cannot be coated.
-fn order_film(world: &World, film: Entity, root: Entity, slots: &[Entity], coating: &Coating) -> Waited<FilmOrder> {
-    check_fields(coating)?;
-    let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
-    let mut meshes = Vec::with_capacity(slots.len());
-    for &slot in slots {
-        let Ok(entity) = world.get_entity(slot) else { return Ok(None) };
-        check_components(world, entity, coating)?;
-        #[cfg(feature = "render")]
-        if !crate::display::is_material_ready(world, entity)? {
-            return Ok(None);
-        }
-        let Some(Mesh3d(handle)) = entity.get::<Mesh3d>() else { return Ok(None) };
-        match loaded(world, handle, CoatingFault::MeshNotLoaded)? {
-            Some(mesh) => meshes.push(mesh.clone()),
-            None => return Ok(None),
-        }
-    }
-    let transform = world.get::<GlobalTransform>(film).copied().unwrap_or_default();
-    let (scale, ..) = transform.to_scale_rotation_translation();
-    if !scale.is_finite() || scale.min_element() == 0.0 || scale.x * scale.y * scale.z == 0.0 {
-        return Err(CoatingFault::Scale(scale.x, scale.y, scale.z));
-    }
-    let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
-    let weather = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
-    let environment = weather.environment(gravity, &transform);
-    let mut shelter = None;
-    if coating.shelter == Shelter::Scene
-        && weather.reaches_anything()
-        && let Some(scene) = world.get_resource::<ShelterScene>()
-    {
-        shelter = scene.order(&environment, &transform, root, slots);
-        if shelter.is_none() {
-            return Ok(None);
-        }
-    }
-    let paint = FilmPaint::new(coating, Vec3::ZERO);
-    let (key, quality) = (coating.key(), coating.quality);
-    Ok(Some(FilmOrder { meshes, key, settings, quality, scale, environment, shelter, paint }))
-}
-
-/// Checks the ranges of a coating's own fields.
-fn check_fields(coating: &Coating) -> Result<(), CoatingFault> {
-    let range = "0 or more, and finite";
-    for (field, found) in [("rate", coating.rate), ("start_age", coating.start_age)] {
-        if !(found.is_finite() && found >= 0.0) {
-            return Err(CoatingFault::Field { field, found, range });
-        }
-    }
-    if coating.steps_per_age == 0 {
-        return Err(CoatingFault::Field { field: "steps_per_age", found: 0.0, range: "1 or more" });
-    }
-    Ok(())
-}
-
-/// Returns the settings of a coating once they are loaded, and checks them.
-fn settings_of(world: &World, source: &SettingsSource) -> Waited<Arc<CoatingSettings>> {
-    let settings = match source {
-        SettingsSource::Inline(settings) => Some(settings),
-        SettingsSource::Asset(handle) => loaded(world, handle, CoatingFault::SettingsNotLoaded)?,
-    };
-    settings.map(|settings| Ok(settings.validate().map(|()| Arc::new(settings.clone()))?)).transpose()
-}
-
-/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not
-/// part of every build of Bevy are recognised by their type paths.
-fn check_components(
-    world: &World,
-    entity: EntityRef,
-    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
-) -> Result<(), CoatingFault> {
-    if entity.contains::<SkinnedMesh>() {
-        return Err(CoatingFault::Skinned);
-    }
-    let Some(registry) = world.get_resource::<AppTypeRegistry>() else { return Ok(()) };
-    let registry = registry.read();
-    let infos = entity.archetype().components().iter().filter_map(|&id| world.components().get_info(id));
-    for path in infos.filter_map(|info| registry.get_type_info(info.type_id()?)).map(|info| info.type_path()) {
-        if path == "bevy_mesh::morph::MeshMorphWeights" {
-            return Err(CoatingFault::Morphed);
-        }
-        #[cfg(feature = "render")]
-        if coating.stain_display == StainDisplay::Material
-            && let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
-            && !entity.contains::<CoatedMaterial>()
-            && material != "bevy_pbr::pbr_material::StandardMaterial>"
-        {
-            return Err(CoatingFault::CustomMaterial { material: material.trim_end_matches('>').into() });
-        }
-    }
-    Ok(())
+    let FilmInputs { key, scale, .. } = order.inputs;
+    let seed = order.seed;
+    let task = AsyncComputeTaskPool::get().spawn(build_film(order));
+    let build = FilmBuild { task, root, slots, key, seed, scale, area };
+    commands.entity(film).try_remove::<FilmOutdated>().try_insert((CoatedBy(root), build));
 }

@@ -1,4 +1,4 @@
-//! Takes a film off its prop, which gets its own mesh back.
+//! Takes films off their props, which get their own meshes back, and single meshes out of films.
 
 use bevy::{
     ecs::{
@@ -7,8 +7,7 @@ use bevy::{
         hierarchy::Children,
         lifecycle::Remove,
         observer::On,
-        query::Or,
-        query::With,
+        query::{Or, With},
         system::{Commands, Query},
         world::World,
     },
@@ -20,7 +19,7 @@ use crate::{
     api::{
         coating::Coating,
         film_pace::FilmPace,
-        links::{AwaitingFilm, CoatedBy, CoatingPart, FilmRefused, FilmSlot, FilmSource},
+        links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -35,13 +34,29 @@ use crate::{
 /// Components that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
-    (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmBuild, FilmDisplay),
+    (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmOutdated, FilmBuild, FilmDisplay),
 );
 
 /// Takes off the film on entity `film`, whether it is ready or being built. Its meshes are marked as changed, so that
 /// `find_meshes` checks them in the next frame. Despawned entities are skipped.
 pub(super) fn detach_film(commands: &mut Commands, film: Entity) {
     commands.queue(move |world: &mut World| detach_now(world, film));
+}
+
+/// Takes everything of a film off its entity, but leaves its meshes as they are.
+pub(super) fn take_film(commands: &mut Commands, film: Entity) {
+    commands.queue(move |world: &mut World| {
+        if let Ok(mut entity) = world.get_entity_mut(film) {
+            entity.remove::<FilmComponents>();
+            despawn_parts(world, film);
+        }
+    });
+}
+
+/// Takes the mesh of entity `slot` out of its film. The other meshes of the film go on ageing. The mesh is marked as
+/// changed, so that `find_meshes` checks it in the next frame.
+pub(super) fn release_slot(commands: &mut Commands, slot: Entity) {
+    commands.queue(move |world: &mut World| restore_mesh(world, slot));
 }
 
 /// Takes off the film on `film` at once.
@@ -52,19 +67,23 @@ fn detach_now(world: &mut World, film: Entity) {
     entity.remove::<FilmComponents>();
     despawn_parts(world, film);
     for slot in slots {
-        let Ok(mut leaf) = world.get_entity_mut(slot) else { continue };
         // A slot may have a new film by now.
-        if leaf.get::<FilmSlot>().is_none_or(|slot| slot.film != film) {
-            continue;
+        if world.get::<FilmSlot>(slot).is_some_and(|slot| slot.film == film) {
+            restore_mesh(world, slot);
         }
-        let Some(FilmSlot { original, display_mesh, .. }) = leaf.take::<FilmSlot>() else { continue };
-        if let Some(mut mesh) = leaf.get_mut::<Mesh3d>() {
-            // A mesh that the game has put there meanwhile stays.
-            if display_mesh.is_some_and(|display_mesh| mesh.0 == display_mesh) {
-                mesh.0 = original;
-            }
-            mesh.set_changed();
+    }
+}
+
+/// Gives the entity of a slot its own mesh back and unlinks it from its film.
+fn restore_mesh(world: &mut World, slot: Entity) {
+    let Ok(mut leaf) = world.get_entity_mut(slot) else { return };
+    let Some(FilmSlot { original, display_mesh, .. }) = leaf.take::<FilmSlot>() else { return };
+    if let Some(mut mesh) = leaf.get_mut::<Mesh3d>() {
+        // A mesh that the game has put there meanwhile stays.
+        if display_mesh.is_some_and(|display_mesh| mesh.0 == display_mesh) {
+            mesh.0 = original;
         }
+        mesh.set_changed();
     }
 }
 
@@ -78,12 +97,60 @@ fn despawn_parts(world: &mut World, film: Entity) {
     }
 }
 
+/// Takes a mesh that is despawned or unlinked out of its film, so that nothing of it stays behind as a ghost.
+pub(super) fn on_slot_removed(removed: On<Remove, FilmSlot>, mut commands: Commands, slots: Query<&FilmSlot>) {
+    let slot = removed.entity;
+    if let Ok(&FilmSlot { film, .. }) = slots.get(slot) {
+        commands.queue(move |world: &mut World| drop_slot(world, film, slot));
+    }
+}
+
+/// Takes the mesh on `slot` out of the film on `film`. A film without meshes is taken off; a build in which the mesh has
+/// a part begins again without it.
+fn drop_slot(world: &mut World, film: Entity, slot: Entity) {
+    let Ok(mut entity) = world.get_entity_mut(film) else { return };
+    let is_built = entity.contains::<FilmSource>();
+    if entity.get::<FilmBuild>().is_some_and(|build| build.slots.contains(&slot)) {
+        if !is_built {
+            detach_now(world, film);
+            return;
+        }
+        entity.remove::<FilmBuild>().insert(FilmOutdated);
+    }
+    let Some(mut source) = entity.get_mut::<FilmSource>() else { return };
+    let Some(number) = source.slots.iter().position(|&own| own == slot) else { return };
+    source.slots[number] = Entity::PLACEHOLDER;
+    if source.live_slots().next().is_none() {
+        detach_now(world, film);
+        return;
+    }
+    hide_slot(world, film, number);
+}
+
+/// Hides the faces of slot `number` of a film: nothing is drawn or told of them any more.
+pub(super) fn hide_slot(world: &mut World, film: Entity, number: usize) {
+    let Ok(mut entity) = world.get_entity_mut(film) else { return };
+    if let Some(mut display) = entity.get_mut::<FilmDisplay>() {
+        display.hide_slot(number);
+        let hidden = display.hidden_faces();
+        if let Some(mut source) = entity.get_mut::<FilmSource>() {
+            source.hidden = hidden;
+        }
+    }
+    if let Some(mut changes) = entity.get_mut::<DisplayChanges>() {
+        (changes.topology, changes.exposure) = (true, true);
+    }
+}
+
 /// Takes off all films of a coating that was removed, and unmarks the meshes that waited for it.
 pub(super) fn on_coating_removed(
     removed: On<Remove, Coating>,
     mut commands: Commands,
     films: Query<(Entity, &CoatedBy)>,
-    marked: Query<(Entity, Option<&AwaitingFilm>, Option<&FilmRefused>), Or<(With<AwaitingFilm>, With<FilmRefused>)>>,
+    marked: Query<
+        (Entity, Option<&AwaitingFilm>, Option<&FilmRefused>, Option<&LeftAlone>),
+        Or<(With<AwaitingFilm>, With<FilmRefused>, With<LeftAlone>)>,
+    >,
 ) {
     let root = removed.entity;
     for (film, coated_by) in &films {
@@ -91,9 +158,10 @@ pub(super) fn on_coating_removed(
             detach_film(&mut commands, film);
         }
     }
-    for (entity, awaiting, refused) in &marked {
-        if awaiting.is_some_and(|a| a.root == root) || refused.is_some_and(|r| r.root == root) {
-            commands.entity(entity).try_remove::<(AwaitingFilm, FilmRefused)>();
+    for (entity, awaiting, refused, left_alone) in &marked {
+        let roots = [awaiting.map(|a| a.root), refused.map(|r| r.root), left_alone.map(|l| l.root)];
+        if roots.contains(&Some(root)) {
+            commands.entity(entity).try_remove::<(AwaitingFilm, FilmRefused, LeftAlone)>();
             // Another coating further up may claim it now.
             commands.queue(move |world: &mut World| {
                 if let Some(mut mesh) = world.get_mut::<Mesh3d>(entity) {

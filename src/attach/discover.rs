@@ -1,157 +1,131 @@
-//! Finds the meshes to be coated, and hands changes of coatings to their films.
-
-use std::sync::Arc;
+//! Finds the meshes to be coated, and the films that no longer fit their coatings.
 
 use bevy::{
-    asset::{AssetEvent, Assets},
     ecs::{
         entity::Entity,
-        hierarchy::{ChildOf, Children},
+        hierarchy::ChildOf,
         lifecycle::RemovedComponents,
-        message::MessageReader,
-        query::{Changed, Without},
-        system::{Commands, Local, Query, Res, SystemParam},
+        query::{Added, Changed, Has, With, Without},
+        system::{Commands, Local, Query},
     },
-    log::warn,
     mesh::Mesh3d,
+    transform::components::Transform,
 };
 
-use super::{build::FilmBuild, detach::detach_film};
-use crate::{
-    api::{
-        coating::{Coating, SettingsSource},
-        film_pace::FilmPace,
-        links::{AwaitingFilm, CoatedBy, CoatingPart, FilmRefused, FilmSlot, FilmSource},
-    },
-    settings::CoatingSettings,
-    shelter::FilmShelter,
+use super::{
+    build::FilmBuild,
+    detach::{detach_film, release_slot},
+    hierarchy::Coatings,
 };
-
-/// Coatings, and the hierarchy of entities.
-#[derive(SystemParam)]
-pub(super) struct Coatings<'w, 's> {
-    pub coatings: Query<'w, 's, &'static Coating>,
-    parents: Query<'w, 's, &'static ChildOf>,
-    children: Query<'w, 's, &'static Children>,
-}
-
-impl Coatings<'_, '_> {
-    /// Returns the nearest entity with a coating, from `entity` upwards.
-    fn root_of(&self, entity: Entity) -> Option<Entity> {
-        std::iter::once(entity).chain(self.parents.iter_ancestors(entity)).find(|&e| self.coatings.contains(e))
-    }
-
-    /// Adds `entity` and all its descendants to `found`.
-    fn below(&self, entity: Entity, found: &mut Vec<Entity>) {
-        found.push(entity);
-        found.extend(self.children.iter_descendants(entity));
-    }
-}
+use crate::api::{
+    coating::Coating,
+    exclude::CoatingExclude,
+    links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
+};
 
 /// Query of the meshes that are not the plugin's own, and where they stand.
 type Meshes<'w, 's> = Query<
     'w,
     's,
-    (&'static Mesh3d, Option<&'static FilmSlot>, Option<&'static AwaitingFilm>, Option<&'static FilmRefused>),
+    (
+        &'static Mesh3d,
+        Option<&'static FilmSlot>,
+        Option<&'static AwaitingFilm>,
+        Option<&'static FilmRefused>,
+        Option<&'static LeftAlone>,
+    ),
     Without<CoatingPart>,
 >;
 
-/// Checks every mesh whose handle, place in the hierarchy or coating changed: marks it as awaiting a film, or takes its
-/// film off.
+/// Checks every mesh whose handle, place in the hierarchy or coating changed: marks it as awaiting a film, or takes it
+/// out of its film.
 pub(super) fn find_meshes(
     mut commands: Commands,
     coatings: Coatings,
-    changed_coatings: Query<Entity, Changed<Coating>>,
+    changed: Query<Entity, Changed<Coating>>,
     changed_meshes: Query<Entity, (Changed<Mesh3d>, Without<CoatingPart>)>,
     moved: Query<Entity, Changed<ChildOf>>,
+    shifted: Query<(Entity, &FilmSlot), (Changed<Transform>, With<ChildOf>)>,
+    excluded: Query<Entity, Added<CoatingExclude>>,
+    mut included: RemovedComponents<CoatingExclude>,
     mut orphans: RemovedComponents<ChildOf>,
     mut meshless: RemovedComponents<Mesh3d>,
     meshes: Meshes,
-    films: Query<(&CoatedBy, Option<&FilmSource>, Option<&FilmBuild>)>,
-    slots: Query<&FilmSlot>,
+    films: Query<&CoatedBy>,
+    slots: Query<(), With<FilmSlot>>,
     mut candidates: Local<Vec<Entity>>,
 ) {
     candidates.clear();
     candidates.extend(&changed_meshes);
-    for entity in moved.iter().chain(orphans.read()) {
+    candidates.extend(shifted.iter().filter(|(entity, slot)| slot.film != *entity).map(|(entity, _)| entity));
+    for entity in moved.iter().chain(orphans.read()).chain(&changed).chain(&excluded).chain(included.read()) {
         coatings.below(entity, &mut candidates);
     }
     for entity in meshless.read() {
-        if let Ok(slot) = slots.get(entity) {
-            detach_film(&mut commands, slot.film);
+        if slots.contains(entity) {
+            release_slot(&mut commands, entity);
         }
-    }
-    for entity in &changed_coatings {
-        coatings.below(entity, &mut candidates);
+        commands.entity(entity).try_remove::<(AwaitingFilm, FilmRefused, LeftAlone)>();
     }
     candidates.sort_unstable();
     candidates.dedup();
     for &entity in candidates.iter() {
-        let Ok((mesh, slot, awaiting, refused)) = meshes.get(entity) else { continue };
+        let Ok((mesh, slot, awaiting, refused, left_alone)) = meshes.get(entity) else { continue };
         let root = coatings.root_of(entity);
         if let Some(slot) = slot {
             let swapped = mesh.0 != slot.original && slot.display_mesh.as_ref() != Some(&mesh.0);
-            let outdated = films.get(slot.film).map_or(true, |(coated_by, source, build)| {
-                let key = source.map(|source| source.key).or(build.map(|build| build.key));
-                let wanted = root.and_then(|root| coatings.coatings.get(root).ok()).map(|coating| coating.key());
-                root != Some(coated_by.0) || key != wanted
-            });
-            if swapped || outdated {
-                detach_film(&mut commands, slot.film);
+            let elsewhere = !coatings.is_in_place(entity, slot.film);
+            let other_root = films.get(slot.film).map_or(true, |coated_by| root != Some(coated_by.0));
+            if swapped || elsewhere || other_root {
+                release_slot(&mut commands, entity);
             }
             continue;
         }
-        let mut entity = commands.entity(entity);
-        let changed = |was: Option<Entity>| was != root;
-        if let Some(root) = root
-            && awaiting.is_none_or(|awaiting| changed(Some(awaiting.root)))
-        {
-            entity.try_insert(AwaitingFilm { root });
-        } else if root.is_none() && awaiting.is_some() {
-            entity.try_remove::<AwaitingFilm>();
+        let mut commands = commands.entity(entity);
+        let Some(root) = root else {
+            if awaiting.is_some() || refused.is_some() || left_alone.is_some() {
+                commands.try_remove::<(AwaitingFilm, FilmRefused, LeftAlone)>();
+            }
+            continue;
+        };
+        // What was refused or left alone is looked at again only when something changed that this may lie in.
+        let settled = refused.map(|r| (r.root, r.seen.mesh)).or(left_alone.map(|l| (l.root, l.seen.mesh)));
+        if settled == Some((root, mesh.id())) || awaiting.is_some_and(|awaiting| awaiting.root == root) {
+            continue;
         }
-        if refused.is_some() {
-            entity.try_remove::<FilmRefused>();
-        }
+        commands.try_remove::<(FilmRefused, LeftAlone)>().try_insert(AwaitingFilm { root });
     }
 }
 
-/// Hands changed settings, rates, pauses, qualities and shelters to the films.
-pub(super) fn follow_coatings(
-    changed: Query<Entity, Changed<Coating>>,
-    coatings: Query<&Coating>,
-    mut reloaded: MessageReader<AssetEvent<CoatingSettings>>,
-    assets: Option<Res<Assets<CoatingSettings>>>,
-    mut films: Query<(&CoatedBy, &mut FilmPace, &mut FilmShelter)>,
+/// Marks the films whose coating asks for another film, and calls off builds that nobody wants any more.
+pub(super) fn find_outdated(
+    mut commands: Commands,
+    changed: Query<&Coating, Changed<Coating>>,
+    films: Query<(Entity, &CoatedBy, Option<&FilmSource>, Option<&FilmBuild>, Has<FilmOutdated>)>,
 ) {
-    let reloaded: Vec<_> = reloaded
-        .read()
-        .filter_map(|event| match event {
-            AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
-            _ => None,
-        })
-        .collect();
-    if changed.is_empty() && reloaded.is_empty() {
+    if changed.is_empty() {
         return;
     }
-    for (coated_by, mut pace, mut shelter) in &mut films {
-        let Ok(coating) = coatings.get(coated_by.0) else { continue };
-        let from_file = matches!(&coating.settings, SettingsSource::Asset(handle) if reloaded.contains(&handle.id()));
-        if !changed.contains(coated_by.0) && !from_file {
+    for (film, coated_by, source, build, outdated) in &films {
+        let Ok(coating) = changed.get(coated_by.0) else { continue };
+        let wanted = coating.key();
+        let Some(source) = source else {
+            // Its meshes await another build, from the beginning.
+            if build.is_some_and(|build| build.key != wanted) {
+                detach_film(&mut commands, film);
+            }
             continue;
-        }
-        pace.paused = coating.paused;
-        pace.rate = coating.rate;
-        pace.quality = coating.quality;
-        shelter.choose(coating.shelter);
-        let settings = match &coating.settings {
-            SettingsSource::Inline(settings) => Some(settings),
-            SettingsSource::Asset(handle) => assets.as_ref().and_then(|assets| assets.get(handle)),
         };
-        let Some(settings) = settings.filter(|&settings| *settings != *pace.settings) else { continue };
-        match settings.validate() {
-            Ok(()) => pace.settings = Arc::new(settings.clone()),
-            Err(error) => warn!("coating {} keeps its settings: {error}", coated_by.0),
+        let mut commands = commands.entity(film);
+        if build.is_some_and(|build| build.key != wanted) {
+            commands.try_remove::<FilmBuild>();
+        }
+        let building = build.is_some_and(|build| build.key == wanted);
+        let outdates = source.key != wanted && source.refused != Some(wanted) && !building;
+        if outdates && !outdated {
+            commands.try_insert(FilmOutdated);
+        } else if outdated && !outdates {
+            commands.try_remove::<FilmOutdated>();
         }
     }
 }

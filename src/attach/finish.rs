@@ -5,6 +5,7 @@ use bevy::{
     ecs::{
         entity::Entity,
         system::{Commands, Query, ResMut},
+        world::World,
     },
     log::error,
     mesh::{Mesh, Mesh3d},
@@ -13,14 +14,15 @@ use bevy::{
 
 use super::{
     build::{FilmBuild, FilmReadiness},
-    detach::detach_film,
+    detach::{detach_film, take_film},
+    suspects::suspects_of,
 };
 use crate::{
     api::{
-        coating::Coating,
+        coating::{Coating, FilmKey},
         error::{CoatingError, CoatingFault},
         film_pace::FilmPace,
-        links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, FilmSource},
+        links::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource, LeftAlone, Suspects},
         messages::{FilmFailed, FilmReady},
     },
     appearance::DisplayChanges,
@@ -30,16 +32,21 @@ use crate::{
 /// Puts finished films on their props.
 pub(super) fn finish_builds(
     mut commands: Commands,
-    mut builds: Query<(Entity, &mut FilmBuild)>,
+    mut builds: Query<(Entity, &mut FilmBuild, Option<&FilmSource>)>,
     slots: Query<(&Mesh3d, &FilmSlot)>,
     coatings: Query<&Coating>,
+    refused: Query<&FilmRefused>,
     mut assets: ResMut<Assets<Mesh>>,
 ) {
-    for (film, mut build) in &mut builds {
+    for (film, mut build, old) in &mut builds {
         let Some(result) = check_ready(&mut build.task) else { continue };
         // If a mesh was swapped or despawned meanwhile, the build is discarded and the meshes are checked again.
-        let current =
-            |&slot: &Entity| slots.get(slot).is_ok_and(|(mesh, slot)| slot.film == film && mesh.0 == slot.original);
+        let current = |&slot: &Entity| {
+            let own = |(mesh, slot): (&Mesh3d, &FilmSlot)| {
+                slot.film == film && (mesh.0 == slot.original || Some(&mesh.0) == slot.display_mesh.as_ref())
+            };
+            slots.get(slot).is_ok_and(own)
+        };
         let Ok(coating) = coatings.get(build.root) else {
             detach_film(&mut commands, film);
             continue;
@@ -49,44 +56,132 @@ pub(super) fn finish_builds(
             continue;
         }
         match result {
+            Err(fault) if old.is_some() => keep_old(&mut commands, film, build.root, build.key, fault),
             Err(fault) => {
-                commands.entity(film).try_remove::<(FilmBuild, CoatedBy)>();
-                refuse(&mut commands, film, build.root, &build.slots, fault);
+                let (root, meshes) = (build.root, std::mem::take(&mut build.slots));
+                take_film(&mut commands, film);
+                refuse_later(&mut commands, film, root, meshes, &refused, fault);
             }
             Ok(ready) => {
-                let FilmReadiness { film: state, settings, warnings, mut display, mut shelter } = *ready;
-                let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
-                let triangles = mesh.topology.face_count();
-                let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
-                (pace.rate, pace.paused, pace.quality) = (coating.rate, coating.paused, coating.quality);
-                pace.bounds = crate::stepping::bounds(&mesh.geometry);
-                shelter.choice = coating.shelter;
-                let handles = display.put_on(&mut assets);
-                for (&slot, handle) in build.slots.iter().zip(handles) {
-                    let Ok((_, claim)) = slots.get(slot) else { continue };
-                    // A primitive of which no face was left keeps its own mesh.
-                    let handle = handle.unwrap_or_else(|| claim.original.clone());
-                    let claim = FilmSlot { display_mesh: Some(handle.clone()), ..claim.clone() };
-                    commands.entity(slot).try_insert((Mesh3d(handle), claim));
+                if old.is_some() {
+                    take_film(&mut commands, film);
                 }
-                let source = FilmSource { key: build.key, slots: std::mem::take(&mut build.slots), scale: build.scale };
-                commands
-                    .entity(film)
-                    .try_remove::<FilmBuild>()
-                    .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
-                    .try_insert((pace, shelter, DisplayChanges::default(), source, display));
-                commands.write_message(FilmReady { entity: film, root: build.root, triangles, warnings });
+                put_on(&mut commands, film, &mut build, *ready, coating, &slots, &mut assets);
             }
         }
     }
 }
 
-/// Marks meshes as refused, logs the reason and sends [`FilmFailed`].
-pub(super) fn refuse(commands: &mut Commands, film: Entity, root: Entity, slots: &[Entity], cause: CoatingFault) {
-    let error = CoatingError { entity: film, cause };
-    error!("{error}");
-    for &slot in slots {
-        commands.entity(slot).try_remove::<(AwaitingFilm, FilmSlot)>().try_insert(FilmRefused { root });
+/// Puts a finished film on its prop.
+fn put_on(
+    commands: &mut Commands,
+    film: Entity,
+    build: &mut FilmBuild,
+    ready: FilmReadiness,
+    coating: &Coating,
+    slots: &Query<(&Mesh3d, &FilmSlot)>,
+    assets: &mut Assets<Mesh>,
+) {
+    let FilmReadiness { film: state, settings, warnings, mut display, mut shelter, origin } = ready;
+    let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
+    let triangles = mesh.topology.face_count();
+    let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
+    // A rate that has gone out of range meanwhile is told before the first step.
+    let _ = pace.follow(coating);
+    pace.bounds = crate::stepping::bounds(&mesh.geometry, origin);
+    shelter.choice = coating.shelter;
+    let handles = display.put_on(assets);
+    for (&slot, handle) in build.slots.iter().zip(handles) {
+        let Ok((_, claim)) = slots.get(slot) else { continue };
+        // A primitive of which no face was left keeps its own mesh.
+        let handle = handle.unwrap_or_else(|| claim.original.clone());
+        let claim = FilmSlot { display_mesh: Some(handle.clone()), ..claim.clone() };
+        commands.entity(slot).try_remove::<FilmRefused>().try_insert((Mesh3d(handle), claim));
     }
+    let FilmBuild { root, key, seed, scale, area, .. } = *build;
+    let slots = std::mem::take(&mut build.slots);
+    let source = FilmSource { key, seed, slots, scale, origin, area, hidden: Vec::new(), refused: None };
+    commands
+        .entity(film)
+        .try_remove::<FilmBuild>()
+        .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
+        .try_insert((pace, shelter, DisplayChanges::default(), source, display))
+        .try_insert(crate::api::links::CoatedBy(root));
+    commands.write_message(FilmReady { entity: film, root, triangles, warnings });
+}
+
+/// Keeps the film that a prop has, as no other can be built with the fields `key` of its coating. Logs the reason and
+/// sends [`FilmFailed`].
+pub(super) fn keep_old(commands: &mut Commands, film: Entity, root: Entity, key: FilmKey, cause: CoatingFault) {
+    let error = CoatingError { entity: film, cause };
+    error!("{error}; it keeps the film that it has");
+    commands.queue(move |world: &mut World| {
+        let Ok(mut entity) = world.get_entity_mut(film) else { return };
+        entity.remove::<(FilmBuild, crate::api::links::FilmOutdated)>();
+        if let Some(mut source) = entity.get_mut::<FilmSource>() {
+            source.refused = Some(key);
+        }
+    });
+    commands.write_message(FilmFailed { entity: film, root, error });
+}
+
+/// Refuses meshes as [`refuse`] does, once the commands before have been carried out.
+fn refuse_later(
+    commands: &mut Commands,
+    film: Entity,
+    root: Entity,
+    meshes: Vec<Entity>,
+    refused: &Query<&FilmRefused>,
+    cause: CoatingFault,
+) {
+    tell(commands, film, root, &meshes, refused, &cause);
+    commands.queue(move |world: &mut World| {
+        for mesh in meshes {
+            let seen = suspects_of(world, mesh, root);
+            let Ok(mut entity) = world.get_entity_mut(mesh) else { continue };
+            entity.remove::<(AwaitingFilm, FilmSlot, LeftAlone)>();
+            if let Some(seen) = seen {
+                entity.insert(FilmRefused { root, film, cause: cause.clone(), seen });
+            }
+        }
+    });
+}
+
+/// Marks meshes as refused. Logs the reason and sends [`FilmFailed`], unless the meshes were refused for the same reason
+/// before.
+pub(super) fn refuse(
+    commands: &mut Commands,
+    film: Entity,
+    root: Entity,
+    meshes: Vec<(Entity, Option<Suspects>)>,
+    refused: &Query<&FilmRefused>,
+    cause: CoatingFault,
+) {
+    let entities: Vec<Entity> = meshes.iter().map(|&(mesh, _)| mesh).collect();
+    tell(commands, film, root, &entities, refused, &cause);
+    for (mesh, seen) in meshes {
+        let mut entity = commands.entity(mesh);
+        entity.try_remove::<(AwaitingFilm, FilmSlot, LeftAlone)>();
+        if let Some(seen) = seen {
+            entity.try_insert(FilmRefused { root, film, cause: cause.clone(), seen });
+        }
+    }
+}
+
+/// Logs why meshes are refused and sends [`FilmFailed`], unless that was told before.
+fn tell(
+    commands: &mut Commands,
+    film: Entity,
+    root: Entity,
+    meshes: &[Entity],
+    refused: &Query<&FilmRefused>,
+    cause: &CoatingFault,
+) {
+    let known = |&mesh: &Entity| refused.get(mesh).is_ok_and(|r| r.root == root && r.film == film && r.cause == *cause);
+    if meshes.iter().all(known) {
+        return;
+    }
+    let error = CoatingError { entity: film, cause: cause.clone() };
+    error!("{error}");
     commands.write_message(FilmFailed { entity: film, root, error });
 }

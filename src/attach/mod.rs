@@ -2,17 +2,27 @@
 //!
 //! ```text
 //! mesh found --AwaitingFilm--> assets loaded --FilmBuild--> task done --> film components, Mesh3d swapped
-//!      ^                                                        |                        |
-//!      +---------------- handle swapped, coating changed -------+------------------------+
+//!      ^                            |                           |                  |
+//!      |                       FilmRefused, LeftAlone           |             FilmOutdated: another FilmBuild
+//!      |                            |                           |                  |
+//!      +-- cause mended ------------+      handle swapped ------+------------------+
 //! ```
 //!
 //! The systems run in `PostUpdate` after transforms have been propagated. No frame waits for a build.
 
 mod begin;
 mod build;
+mod copy;
 mod detach;
 mod discover;
 mod finish;
+mod follow;
+mod group;
+mod hierarchy;
+mod order;
+mod recheck;
+mod share;
+mod suspects;
 
 use bevy::{
     app::{App, PostUpdate},
@@ -22,19 +32,22 @@ use bevy::{
 
 use crate::{
     api::system_sets::CoatingAttach,
-    shelter::{self, ShelterScene},
+    shelter::{self, ShelterScene, ShelteredFilms},
 };
 
 /// Adds the systems that put films on props, and the survey of shelters between them.
 pub(crate) fn add_attachment(app: &mut App) {
     app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
-    app.init_resource::<ShelterScene>();
+    app.init_resource::<ShelterScene>().init_resource::<ShelteredFilms>();
     app.add_systems(
         PostUpdate,
         (
             finish::finish_builds,
+            copy::copy_clones,
             discover::find_meshes,
-            discover::follow_coatings,
+            discover::find_outdated,
+            recheck::recheck_refused,
+            follow::follow_coatings,
             shelter::survey,
             begin::begin_builds,
             shelter::cast,
@@ -42,5 +55,5 @@ pub(crate) fn add_attachment(app: &mut App) {
             .chain()
             .in_set(CoatingAttach),
     );
-    app.add_observer(detach::on_coating_removed);
+    app.add_observer(detach::on_coating_removed).add_observer(detach::on_slot_removed);
 }

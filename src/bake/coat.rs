@@ -1,22 +1,21 @@
 //! Makes films of meshes, which share a budget of triangles.
 
+use std::collections::BTreeMap;
+
 use bevy_math::Vec3;
 
 use super::{
     error::{BakeError, BrokenFilm},
-    model::{ModelMesh, Slot},
+    model::{ModelMesh, Place, Slot},
     options::{BakeOptions, Resolution},
     parallel,
     warning::BakeWarning,
 };
 use crate::{
-    remesh::{self, BuiltFilm, FilmResolution},
-    sim::FilmState,
+    remesh::{self, BuiltFilm, FilmResolution, share_triangles},
+    sim::{FilmState, PathStep, film_seed},
     surface::{BuildError, Surface},
 };
-
-/// Fewest triangles of a film, however small its share of the surface is.
-const LEAST_TRIANGLES: u32 = 12;
 
 /// A prop and the film that was made for it.
 #[derive(Clone, Debug)]
@@ -29,9 +28,12 @@ pub struct Prop {
     pub origin: Vec3,
     /// Attributes and material of each slot of the surface.
     pub slots: Vec<Slot>,
+    /// Place in the document that the model was read from.
+    pub place: Option<Place>,
     /// The film at rest.
     pub built: BuiltFilm,
-    /// Seed of the film. The first prop has the seed of the options, others have one that follows from it.
+    /// Seed of the film. A prop alone has the seed of the options; of several props, each has one that follows from it
+    /// and from the prop's name.
     pub seed: u64,
 }
 
@@ -66,30 +68,33 @@ pub struct Coated {
 /// [`BakeError::Build`] if no film can be made of a mesh, [`BakeError::Broken`] if a film that came with a mesh is no
 /// oriented manifold.
 pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Result<Coated, BakeError> {
-    let areas: Vec<f64> = meshes.iter().map(|mesh| area(&mesh.surface)).collect();
+    let areas: Vec<f64> = meshes.iter().map(|mesh| mesh.surface.area()).collect();
     let resolutions: Vec<FilmResolution> = match options.resolution {
         Resolution::Keep => vec![FilmResolution::Keep; meshes.len()],
-        Resolution::Triangles(budget) => share(budget, &areas).into_iter().map(FilmResolution::Triangles).collect(),
+        Resolution::Triangles(budget) => {
+            share_triangles(budget, &areas).into_iter().map(FilmResolution::Triangles).collect()
+        }
     };
+    let seeds = film_seeds(options.seed, &meshes);
     let mut jobs: Vec<Job> = meshes
         .into_iter()
         .zip(resolutions)
-        .enumerate()
-        .map(|(i, (mesh, resolution))| Job { seed: film_seed(options.seed, i), mesh, resolution, result: None })
+        .zip(seeds)
+        .map(|((mesh, resolution), seed)| Job { seed, mesh, resolution, result: None })
         .collect();
     parallel::for_each(&mut jobs, |job| job.run(options));
 
     let mut coated = Coated::default();
     let mut nothing = None;
     for Job { mesh, result, seed, .. } in jobs {
-        let ModelMesh { name, surface, origin: place, slots, .. } = mesh;
+        let ModelMesh { name, surface, origin: at, slots, place, .. } = mesh;
         let broken = |source| BakeError::Broken { origin: origin.into(), mesh: name.clone(), source };
         match result {
             Some(Ok((built, film))) => {
                 let warnings = built.warnings.iter().cloned();
                 coated.warnings.extend(warnings.map(|warning| BakeWarning::Build { mesh: name.clone(), warning }));
                 coated.films.push(film.ok_or_else(|| broken(BrokenFilm::NotManifold))?);
-                coated.props.push(Prop { name, surface, origin: place, slots, built, seed });
+                coated.props.push(Prop { name, surface, origin: at, slots, place, built, seed });
             }
             Some(Err(
                 source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. } | BuildError::Size { .. }),
@@ -131,48 +136,20 @@ impl Job {
     }
 }
 
-/// Returns the seed of film `index`. The first film has the seed itself, so that one mesh alone and the same mesh as
-/// the first of many age alike; others differ, so that four wheels do not crack alike.
-fn film_seed(seed: u64, index: usize) -> u64 {
-    seed.wrapping_add((index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15))
-}
-
-/// Shares `budget` triangles by area. Films too small for [`LEAST_TRIANGLES`] get that; the others share
-/// the rest.
-fn share(budget: u32, areas: &[f64]) -> Vec<u32> {
-    if let [_] = areas {
-        return vec![budget];
+/// Returns the seed of each film: that of the options, varied by the names of the meshes as the plugin varies a coating's
+/// seed. One mesh alone is the prop itself, and has the seed of the options.
+fn film_seeds(seed: u64, meshes: &[ModelMesh]) -> Vec<u64> {
+    if let [_] = meshes {
+        return vec![seed];
     }
-    let least = f64::from(LEAST_TRIANGLES);
-    let mut small = vec![false; areas.len()];
-    loop {
-        let taken = small.iter().filter(|&&small| small).count() as f64 * least;
-        let rest = (f64::from(budget) - taken).max(0.0);
-        let area: f64 = areas.iter().zip(&small).filter(|&(_, &small)| !small).map(|(&area, _)| area).sum();
-        let part = |own: f64| if area > 0.0 { rest * own / area } else { 0.0 };
-        let mut changed = false;
-        for (&own, small) in areas.iter().zip(&mut small) {
-            if !*small && part(own) < least {
-                (*small, changed) = (true, true);
-            }
-        }
-        if !changed {
-            let parts = areas.iter().zip(&small);
-            return parts
-                .map(|(&own, &small)| if small { LEAST_TRIANGLES } else { part(own).round() as u32 })
-                .collect();
-        }
-    }
-}
-
-/// Area of all triangles that can be measured.
-fn area(surface: &Surface) -> f64 {
-    let corner = |v: u32| surface.positions.get(v as usize).map(|p| p.as_dvec3());
-    let areas = surface.triangles.iter().filter_map(|&[a, b, c]| {
-        let (a, b, c) = (corner(a)?, corner(b)?, corner(c)?);
-        Some((b - a).cross(c - a).length() * 0.5).filter(|area| area.is_finite())
-    });
-    areas.sum()
+    let mut seen: BTreeMap<&str, u32> = BTreeMap::new();
+    let mut seed_of = |name| {
+        let number = seen.entry(name).or_default();
+        let step = PathStep { name, number: *number };
+        *number += 1;
+        film_seed(seed, &[step])
+    };
+    meshes.iter().map(|mesh| seed_of(mesh.name.as_str())).collect()
 }
 
 #[cfg(test)]
@@ -180,11 +157,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_budget_is_shared_by_area_with_a_minimum() {
-        assert_eq!(share(4000, &[2.0]), [4000]);
-        assert_eq!(share(1000, &[3.0, 1.0]), [750, 250]);
-        assert_eq!(share(1000, &[1.0, 1e-9]), [988, LEAST_TRIANGLES]);
-        assert_eq!(share(4, &[1.0, 1.0]), [LEAST_TRIANGLES; 2]);
-        assert_eq!(share(100, &[0.0, 0.0]), [LEAST_TRIANGLES; 2]);
+    fn films_of_equal_meshes_have_seeds_of_their_own() {
+        let wheel = || ModelMesh { name: "wheel".into(), ..ModelMesh::default() };
+        assert_eq!(film_seeds(7, &[wheel()]), [7]);
+        let mut seeds = film_seeds(7, &[wheel(), wheel(), wheel(), wheel()]);
+        assert_eq!(seeds, film_seeds(7, &[wheel(), wheel(), wheel(), wheel()]), "always the same");
+        seeds.extend(film_seeds(8, &[wheel(), wheel()]));
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 6);
     }
 }

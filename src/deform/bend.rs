@@ -118,14 +118,15 @@ pub(super) fn shape_at_rest([p1, p2, p3, p4]: [Vec3; 4]) -> ([f32; 2], [f32; 2])
     // Altitude over median: the sine of the angle between median and edge.
     let sine = |i: usize| {
         let product = length(edge) * lengths[i];
-        if product > 0.0 { length(medians[i].cross(edge)) / product } else { 0.0 }
+        let sine = length(medians[i].cross(edge)) / product;
+        if sine.is_finite() { sine } else { 0.0 }
     };
     ([sine(0), sine(1)], lengths)
 }
 
 /// Returns the corrections of the four points of a bend constraint, with `reach` and `rest_medians` as in
 /// [`BendConstraint`]. `None` where nothing can be done: a face without area, a fully folded pair, a tip that
-/// already lies where no direction is left, or all points fixed.
+/// already lies where no direction is left, all points fixed, or lengths beyond the range of floats.
 ///
 /// In the form that needs no division by partial sums of weights (which are 0 when three points are pinned):
 /// `a_i = u_i q_i`, `W = w1 + w2 + w3 + w4`, `W1 = W - w4`, `W2 = W - w3`,
@@ -160,7 +161,8 @@ pub(super) fn bend_corrections(
         let median = length(arm);
         let q = arm - median * neutral;
         let q_length = length(q);
-        if !(q_length > 0.0 && median > 0.0) {
+        // The length of a huge vector is infinite.
+        if !(q_length > 0.0 && median > 0.0 && q_length < f32::INFINITY && median < f32::INFINITY) {
             return None;
         }
         let stretch = rest / median;

@@ -1,6 +1,6 @@
 //! The ledger of a film's constraints: which half-edge carries which.
 
-use crate::film::HalfEdgeId;
+use crate::film::{HalfEdgeId, words::Words};
 
 /// Stands for no constraint, in place of its lane.
 const NONE: u32 = u32::MAX;
@@ -180,8 +180,37 @@ impl Ledger {
         self.angles[h.index()][0]
     }
 
+    /// Appends all that decides what becomes of the constraints.
+    pub fn write_state(&self, to: &mut Words) {
+        // The revision only tells the plain solver when to look.
+        let Self { lengths, bends, angles, revision: _ } = self;
+        for Carriers { lanes, count: _ } in [lengths, bends] {
+            to.list(lanes.iter().copied());
+        }
+        to.floats(angles.as_flattened());
+    }
+
     /// Returns the target of the bend of `h` when it was parked, in radians.
     pub fn parked_target(&self, h: HalfEdgeId) -> f32 {
         self.angles[h.index()][1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_the_ledger_counts() {
+        let changes: [fn(&mut Ledger); 6] = [
+            |ledger| ledger.add_length(HalfEdgeId(1)),
+            |ledger| ledger.put_length(HalfEdgeId(1), 7),
+            |ledger| ledger.put_bend(HalfEdgeId(1), 7),
+            |ledger| ledger.angles[1][0] = 0.5,
+            |ledger| ledger.park_bend(HalfEdgeId(1), 0.5),
+            |ledger| ledger.angles[2][1] = 0.5,
+        ];
+        assert_each_counts(&Ledger::new(3), Ledger::write_state, &changes);
     }
 }

@@ -50,16 +50,17 @@ impl LengthConstraint {
 }
 
 /// Returns the corrections of the two ends at `p` with inverse masses `w`: VC 4.2, as printed. `None` where both are
-/// fixed or the ends coincide, so that no direction is left.
+/// fixed, the ends coincide, so that no direction is left, or lengths are beyond the range of floats.
 #[inline]
 pub(super) fn length_corrections(p: [Vec3; 2], w: [f32; 2], rest: f32) -> Option<[Vec3; 2]> {
     let mass = w[0] + w[1];
     let difference = p[0] - p[1];
     let length = length(difference);
-    if !(mass > 0.0 && length > 0.0) {
+    let quotient = (length - rest) / (mass * length);
+    if !(mass > 0.0 && length > 0.0 && quotient.is_finite()) {
         return None;
     }
-    let correction = difference * ((length - rest) / (mass * length));
+    let correction = difference * quotient;
     Some([-w[0] * correction, w[1] * correction])
 }
 

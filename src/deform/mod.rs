@@ -33,7 +33,7 @@ mod solver;
 mod update;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;

@@ -92,6 +92,15 @@ impl SolvePace {
     }
 }
 
+/// Narrowing of the targets of bends in one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Narrowing {
+    /// Angle by which targets narrow, in radians.
+    pub step: f32,
+    /// Angle below that at which a bend began, at which its target stays, in radians.
+    pub limit: f32,
+}
+
 /// Returns the number of sweeps an age that are really done when `asked` plain sweeps are asked for, and the momentum
 /// that makes up for the others.
 ///

@@ -15,8 +15,8 @@ use crate::film::{FilmMesh, Geometry, Topology};
 /// All constraints of a film, sorted by half-edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlainConstraints {
-    /// Revision of the ledger that these are of.
-    revision: u64,
+    /// Revision of the ledger that these are of; `None` before the first.
+    revision: Option<u64>,
     lengths: Vec<LengthConstraint>,
     bends: Vec<BendConstraint>,
     /// Inverse mass of each vertex: 0 attached, 1 separated.
@@ -26,15 +26,16 @@ pub struct PlainConstraints {
 impl PlainConstraints {
     /// Brings these up to date with the constraints of a film and their targets.
     pub fn follow(&mut self, mesh: &FilmMesh, ledger: &Ledger, packed: &PackedConstraints) {
-        if self.revision != ledger.revision() || self.inverse_masses.len() != mesh.topology.vertex_count() {
-            self.revision = ledger.revision();
+        // A vertex that lets go may have all its constraints already, as its neighbours have them: the ledger stays.
+        let mass = |v| if packed.motion(v) == Motion::Attached { 0.0 } else { 1.0 };
+        self.inverse_masses.clear();
+        self.inverse_masses.extend(mesh.topology.all_vertices().map(mass));
+        if self.revision != Some(ledger.revision()) {
+            self.revision = Some(ledger.revision());
             self.lengths.clear();
             self.bends.clear();
             self.lengths.extend(ledger.lengths().iter().map(|h| LengthConstraint::of_edge(mesh, h)));
             self.bends.extend(ledger.bends().iter().filter_map(|h| packed.bend_of(ledger, mesh, h)));
-            self.inverse_masses.clear();
-            let mass = |v| if packed.motion(v) == Motion::Attached { 0.0 } else { 1.0 };
-            self.inverse_masses.extend(mesh.topology.all_vertices().map(mass));
         }
         self.renew_targets(&mesh.topology, ledger, packed);
     }

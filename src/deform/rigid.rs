@@ -61,6 +61,12 @@ fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Ve
     }
     // Points on a line leave a turn about it open: no rotation is taken out then.
     let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
+    // In units in which the trace is near 1 nothing below overflows or vanishes. A power of two changes no other bit.
+    let unit = f32::from_bits(trace.to_bits() & 0x7f80_0000);
+    if !(unit.is_normal() && unit.recip().is_normal()) {
+        return Quat::IDENTITY;
+    }
+    let (momentum, inertia, trace) = (momentum * unit.recip(), inertia * unit.recip(), trace * unit.recip());
     if !(inertia.determinant() > 1e-9 * trace * trace * trace) {
         return Quat::IDENTITY;
     }

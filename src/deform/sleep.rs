@@ -11,12 +11,13 @@ use bevy_math::Vec3;
 
 use super::{
     ledger::Ledger,
+    pace::Narrowing,
     packed::{
         constraints::PackedConstraints,
         points::{Motion, Points},
     },
 };
-use crate::film::{FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId};
+use crate::film::{FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId, words::Words};
 
 /// Farthest that a quiet vertex moves in a tick, in mean edges.
 const QUIET: f32 = 1e-4;
@@ -72,15 +73,15 @@ impl SleepMarks {
         packed.unpark_around(ledger, mesh, v);
     }
 
-    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit`
-    /// is how far targets narrow, in radians.
+    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `by` is
+    /// how targets narrow.
     pub fn tick(
         &mut self,
         packed: &mut PackedConstraints,
         ledger: &mut Ledger,
         mesh: &FilmMesh,
         loose: &LoosePieces,
-        limit: f32,
+        by: Narrowing,
     ) {
         packed.points_mut().sort();
         self.find_disturbed(packed.points(), mesh, loose);
@@ -89,7 +90,7 @@ impl SleepMarks {
             self.wake(packed, ledger, mesh, v);
         }
         self.disturbed = disturbed;
-        self.find_sleepers(packed, ledger, &mesh.topology, loose, limit);
+        self.find_sleepers(packed, ledger, &mesh.topology, loose, by);
         self.put_to_sleep(packed, ledger, &mesh.topology);
         packed.compact(ledger, &mesh.topology);
     }
@@ -128,20 +129,20 @@ impl SleepMarks {
         ledger: &Ledger,
         topology: &Topology,
         loose: &LoosePieces,
-        limit: f32,
+        by: Narrowing,
     ) {
         let mut sleepers = std::mem::take(&mut self.sleepers);
         sleepers.clear();
         for piece in loose.iter() {
             piece.vertices.iter().for_each(|v| self.loose[v.index()] = true);
             let awake = piece.vertices.iter().any(|&v| packed.motion(v) == Motion::Awake);
-            let may_sleep = |&v: &VertexId| self.may_sleep(packed, ledger, topology, v, limit);
+            let may_sleep = |&v: &VertexId| self.may_sleep(packed, ledger, topology, v, by);
             if awake && piece.vertices.iter().all(may_sleep) {
                 sleepers.extend_from_slice(piece.vertices);
             }
         }
         let held = packed.points().awake().map(VertexId::new).filter(|v| !self.loose[v.index()]);
-        sleepers.extend(held.filter(|&v| self.may_sleep(packed, ledger, topology, v, limit)));
+        sleepers.extend(held.filter(|&v| self.may_sleep(packed, ledger, topology, v, by)));
         loose.iter().flat_map(|piece| piece.vertices).for_each(|v| self.loose[v.index()] = false);
         self.sleepers = sleepers;
     }
@@ -165,6 +166,14 @@ impl SleepMarks {
         }
     }
 
+    /// Appends all that decides who sleeps.
+    pub fn write_state(&self, to: &mut Words) {
+        // Buffers mean nothing between ticks.
+        let Self { positions, quiet, loose: _, sleepers: _, stale: _, disturbed: _ } = self;
+        to.vectors(positions);
+        to.list(quiet.iter().map(|&ticks| u32::from(ticks)));
+    }
+
     fn is_quiet(&self, v: VertexId) -> bool {
         self.quiet[v.index()] >= TICKS
     }
@@ -175,14 +184,14 @@ impl SleepMarks {
         ledger: &Ledger,
         topology: &Topology,
         v: VertexId,
-        limit: f32,
+        by: Narrowing,
     ) -> bool {
         let mut still = self.is_quiet(v);
         if !still {
             return false;
         }
         for_neighbours(topology, v, |n| still &= packed.motion(n) != Motion::Awake || self.is_quiet(n));
-        let narrows = |h: HalfEdgeId| packed.is_narrowing(ledger, topology, topology.edge(h), limit);
+        let narrows = |h: HalfEdgeId| packed.is_narrowing(ledger, topology, topology.edge(h), by);
         still && topology.fan(v).all(|h| ![h, h.next(), h.previous()].into_iter().any(narrows))
     }
 }
@@ -195,5 +204,17 @@ fn for_neighbours(topology: &Topology, v: VertexId, mut with: impl FnMut(VertexI
         if let Some(twin) = topology.bound_twin(h.next()) {
             with(topology.apex(twin));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_sleep_counts() {
+        let changes: [fn(&mut SleepMarks); 2] = [|sleep| sleep.positions[1] = Vec3::X, |sleep| sleep.quiet[1] = 1];
+        assert_each_counts(&SleepMarks::new(2), SleepMarks::write_state, &changes);
     }
 }

@@ -4,7 +4,7 @@ use bevy_math::Vec3;
 
 use super::{
     constraints::FilmConstraints,
-    pace::{SolvePace, SolverQuality},
+    pace::{Narrowing, SolvePace, SolverQuality},
     packed::level::SimdLevel,
     rigid,
 };
@@ -73,7 +73,8 @@ pub fn bend_film(
         return;
     }
     let is_plain = pace.quality == SolverQuality::Reference;
-    constraints.narrow(scratch.level, settings.narrowing_rate * pace.dt, settings.bend_limit);
+    let narrowing = Narrowing { step: settings.narrowing_rate * pace.dt, limit: settings.bend_limit };
+    constraints.narrow(scratch.level, narrowing);
     if pace.sweeps > 0 {
         changes.moved = true;
         rigid::remember(&mesh.geometry.positions, loose, constraints.points(), &mut scratch.before);
@@ -85,6 +86,6 @@ pub fn bend_film(
         rigid::put_back(&mut mesh.geometry, loose, constraints.points_mut(), &scratch.before);
     }
     if pace.tick && !is_plain {
-        constraints.tick(mesh, loose, settings.bend_limit);
+        constraints.tick(mesh, loose, narrowing);
     }
 }

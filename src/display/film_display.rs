@@ -5,6 +5,7 @@ use bevy::{
     ecs::{
         change_detection::DetectChangesMut,
         component::Component,
+        entity::Entity,
         system::{Query, ResMut},
     },
     math::Vec3,
@@ -12,11 +13,12 @@ use bevy::{
 };
 
 use super::{
+    canvas::{StainCanvas, StainCarrier, StainWriter},
     film_paint::FilmPaint,
-    mesh::{PartSpace, StainCarrier, StainWriter, move_part, new_mesh, write_part, write_stains},
+    mesh::{PartSpace, move_part, new_mesh, write_part, write_stains},
 };
 use crate::{
-    api::{diagnostics::CoatingTimings, stain_display::StainDisplay},
+    api::{diagnostics::CoatingTimings, display_cost::DisplayCost, stain_display::StainDisplay},
     appearance::{DisplayChanges, FilmAppearance, shading::StainPart},
     film::FilmMesh,
     fracture::FilmForces,
@@ -27,8 +29,12 @@ use crate::{
     surface::Surface,
 };
 
+/// Work of colouring a vertex, in vertices that are moved.
+const COLORING: u64 = 8;
+
 /// Appearance of a film, on its entity, and the assets that draw it.
 #[derive(Component)]
+#[component(clone_behavior = Ignore)]
 pub(crate) struct FilmDisplay {
     /// Front, backs and metal as arrays.
     pub(super) appearance: FilmAppearance,
@@ -41,20 +47,32 @@ pub(crate) struct FilmDisplay {
     /// Whether the materials have not been updated to `paint` yet.
     #[cfg(feature = "render")]
     pub(super) materials_outdated: bool,
-    slots: Vec<DisplaySlot>,
+    /// Primitives of the prop.
+    pub(super) slots: Vec<DisplaySlot>,
     /// Changes that were taken in this frame, to be written into assets.
     pub(super) changes: DisplayChanges,
+    /// Whether `paint` has changed since stains were last drawn.
+    pub(super) repainted: bool,
+    /// Whether the film must be shown in this frame, whatever else there is to show.
+    pub(super) urgent: bool,
+    /// Whether the film is shown in this frame.
+    pub(super) due: bool,
+    /// Priority among the films that have something to show.
+    pub(super) credit: f32,
     /// Backs and metal, as far as they have been spawned.
     #[cfg(feature = "render")]
     pub(super) parts: super::part_handles::PartHandles,
 }
 
 /// Primitive of the prop.
-struct DisplaySlot {
-    attributes: SlotAttributes,
+pub(super) struct DisplaySlot {
+    /// Attributes that its own mesh has.
+    pub attributes: SlotAttributes,
     /// Mesh that was written while the film was built, until it is an asset.
     mesh: Option<Mesh>,
     handle: Option<Handle<Mesh>>,
+    /// Stains as the mesh shows them.
+    canvas: StainCanvas,
 }
 
 impl FilmDisplay {
@@ -65,18 +83,24 @@ impl FilmDisplay {
         built: &BuiltFilm,
         slots: Vec<SlotAttributes>,
         scale: Vec3,
+        origin: Vec3,
         paint: FilmPaint,
     ) -> Self {
-        let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None };
+        let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None, canvas: StainCanvas::default() };
         Self {
             appearance: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
-            space: PartSpace::new(scale),
+            space: PartSpace::new(scale, origin),
             paint,
             edge: film.mesh.geometry.mean_edge,
             #[cfg(feature = "render")]
-            materials_outdated: false,
+            // The prop may still wear the materials of an earlier film.
+            materials_outdated: true,
             slots: slots.into_iter().map(empty).collect(),
             changes: DisplayChanges::default(),
+            repainted: false,
+            urgent: false,
+            due: false,
+            credit: 0.0,
             #[cfg(feature = "render")]
             parts: super::part_handles::PartHandles::default(),
         }
@@ -90,10 +114,59 @@ impl FilmDisplay {
             // A primitive of which nothing was left after cleaning keeps its mesh.
             let Some(part) = self.appearance.front(slot) else { continue };
             let mut mesh = new_mesh();
-            let stains = front_writer(&self.paint, self.edge);
-            write_part(&mut mesh, part, display.attributes, self.space, stains);
+            display.canvas = StainCanvas::new(part, front_writer(&self.paint, self.edge));
+            display.canvas.take_change();
+            write_part(&mut mesh, part, display.attributes, self.space, &display.canvas);
             display.mesh = Some(mesh);
         }
+    }
+
+    /// Returns a display for a copy of the film, with meshes and parts of its own.
+    pub fn copy(&self, assets: &Assets<Mesh>) -> Self {
+        let mesh_of = |slot: &DisplaySlot| slot.handle.as_ref().and_then(|handle| assets.get(handle)).cloned();
+        let copy = |slot: &DisplaySlot| DisplaySlot {
+            attributes: slot.attributes,
+            mesh: mesh_of(slot),
+            handle: None,
+            canvas: slot.canvas.clone(),
+        };
+        Self {
+            appearance: self.appearance.clone(),
+            space: self.space,
+            paint: self.paint.clone(),
+            edge: self.edge,
+            #[cfg(feature = "render")]
+            materials_outdated: true,
+            slots: self.slots.iter().map(copy).collect(),
+            changes: self.changes,
+            repainted: self.repainted,
+            urgent: false,
+            due: false,
+            credit: 0.0,
+            #[cfg(feature = "render")]
+            parts: super::part_handles::PartHandles::default(),
+        }
+    }
+
+    /// Hides slot `slot` for good: it has no front, no backs and no metal any more.
+    pub fn hide_slot(&mut self, slot: usize) {
+        self.appearance.hide_slot(slot);
+        if let Some(slot) = self.slots.get_mut(slot) {
+            (slot.mesh, slot.handle) = (None, None);
+        }
+    }
+
+    /// Returns whether each face is in a slot that is hidden.
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.appearance.hidden_faces()
+    }
+
+    /// Returns whether `entity` draws the film's backs or metal.
+    pub fn has_part(&self, #[cfg_attr(not(feature = "render"), expect(unused_variables))] entity: Entity) -> bool {
+        #[cfg(feature = "render")]
+        return self.parts.contains(entity);
+        #[cfg(not(feature = "render"))]
+        false
     }
 
     /// Adds the meshes as assets and returns one handle a primitive; `None` for a primitive of which the film has no
@@ -104,22 +177,50 @@ impl FilmDisplay {
         }
         self.slots.iter().map(|slot| slot.handle.clone()).collect()
     }
+
+    /// Returns how much work it is to show `changes`, in vertices that are moved.
+    pub(super) fn work(&self, changes: DisplayChanges) -> u64 {
+        let vertices: usize =
+            (0..self.slots.len()).filter_map(|slot| Some(self.appearance.front(slot)?.positions.len())).sum();
+        let stains = if self.paint.display == StainDisplay::VertexColor { COLORING } else { 1 };
+        let parts = u64::from(changes.moved) + 2 * u64::from(changes.topology || changes.exposure);
+        (parts + stains * u64::from(changes.stains || changes.topology)) * vertices as u64
+    }
+
+    /// Brings the stains that are drawn up to date with the appearance.
+    fn follow_stains(&mut self) {
+        let Self { appearance, slots, paint, edge, changes, .. } = self;
+        let repainted = std::mem::take(&mut self.repainted);
+        let afresh = changes.topology || repainted;
+        if afresh || changes.stains {
+            for (slot, display) in slots.iter_mut().enumerate() {
+                let Some(part) = appearance.front(slot) else { continue };
+                display.canvas.follow(part, front_writer(paint, *edge), afresh);
+            }
+        }
+        #[cfg(feature = "render")]
+        self.parts.follow_stains(appearance, paint, *edge, *changes, repainted);
+    }
 }
 
-/// Takes the changes of every film and brings the appearance of those that changed up to date, in parallel. Touches no
-/// asset.
+/// Takes the changes of every film that is due and brings its appearance up to date, in parallel. Touches no asset.
 pub(super) fn follow_films(
     mut films: Query<(&FilmMesh, &FilmForces, &StainFields, &mut DisplayChanges, &mut FilmDisplay)>,
     mut timings: ResMut<CoatingTimings>,
+    mut cost: ResMut<DisplayCost>,
 ) {
     timings.measure(Stage::MeshGeneration, || {
-        films.par_iter_mut().for_each(|(mesh, forces, stains, mut changes, mut display)| {
-            let display = display.bypass_change_detection();
-            display.changes = changes.bypass_change_detection().take();
-            if !display.changes.is_empty() {
-                display.appearance.update(mesh, forces, stains, display.changes);
-            }
-        });
+        cost.measure(|| {
+            films.par_iter_mut().for_each(|(mesh, forces, stains, mut changes, mut display)| {
+                let display = display.bypass_change_detection();
+                display.changes =
+                    if display.due { changes.bypass_change_detection().take() } else { DisplayChanges::default() };
+                if !display.changes.is_empty() {
+                    display.appearance.update(mesh, forces, stains, display.changes);
+                    display.follow_stains();
+                }
+            });
+        })
     });
 }
 
@@ -138,29 +239,37 @@ pub(super) fn write_fronts(
     mut films: Query<&mut FilmDisplay>,
     mut assets: ResMut<Assets<Mesh>>,
     mut timings: ResMut<CoatingTimings>,
+    mut cost: ResMut<DisplayCost>,
 ) {
     timings.measure(Stage::MeshGeneration, || {
-        for mut display in &mut films {
-            let display = display.bypass_change_detection();
-            let changes = display.changes;
-            if !(changes.topology || changes.moved || changes.stains) {
-                continue;
-            }
-            for (slot, front) in display.slots.iter().enumerate() {
-                let Some(part) = display.appearance.front(slot) else { continue };
-                let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else { continue };
-                let stains = front_writer(&display.paint, display.edge);
-                if changes.topology {
-                    write_part(&mut mesh, part, front.attributes, display.space, stains);
+        cost.measure(|| {
+            for mut display in &mut films {
+                let display = display.bypass_change_detection();
+                let changes = display.changes;
+                if !(changes.topology || changes.moved || changes.stains) {
                     continue;
                 }
-                if changes.moved {
-                    move_part(&mut mesh, part, display.space);
-                }
-                if changes.stains {
-                    write_stains(&mut mesh, part, stains);
+                for (slot, front) in display.slots.iter_mut().enumerate() {
+                    let Some(part) = display.appearance.front(slot) else { continue };
+                    let stained = front.canvas.take_change();
+                    if !(changes.topology || changes.moved || stained) {
+                        continue;
+                    }
+                    let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else {
+                        continue;
+                    };
+                    if changes.topology {
+                        write_part(&mut mesh, part, front.attributes, display.space, &front.canvas);
+                        continue;
+                    }
+                    if changes.moved {
+                        move_part(&mut mesh, part, display.space);
+                    }
+                    if stained {
+                        write_stains(&mut mesh, part, &front.canvas);
+                    }
                 }
             }
-        }
+        })
     });
 }

@@ -22,12 +22,12 @@ pub(crate) struct FilmPaint {
 }
 
 impl FilmPaint {
-    /// Returns the paint of a film of `coating` on which stains have run along `streaks`.
-    pub fn new(coating: &Coating, streaks: Vec3) -> Self {
+    /// Returns the paint of a film of `coating` with `seed` on which stains have run along `streaks`.
+    pub fn new(coating: &Coating, seed: u64, streaks: Vec3) -> Self {
         Self {
             display: coating.stain_display,
             shading: coating.shading.clone(),
-            pattern: StainPattern::new(coating.seed, streaks),
+            pattern: StainPattern::new(seed, streaks),
         }
     }
 

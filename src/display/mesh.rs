@@ -6,11 +6,8 @@ use bevy::{
     mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues, VertexFormat},
 };
 
-use super::film_paint::FilmPaint;
-use crate::{
-    appearance::{MeshPart, shading::StainPart},
-    mesh_reader::SlotAttributes,
-};
+use super::canvas::{StainCanvas, StainCarrier};
+use crate::{appearance::MeshPart, mesh_reader::SlotAttributes};
 
 /// Vertex attribute with the stains of a film's meshes: layers of rust (0 to 1), dust, moisture and corrosion of the
 /// metal, as [`MeshPart::stains`] has them. It is present while stains are drawn by a material
@@ -43,34 +40,12 @@ pub const ATTRIBUTE_REST: MeshVertexAttribute =
 pub const ATTRIBUTE_REST_NORMAL: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_RestNormal", 0x636f_6174_6e6f_726d, VertexFormat::Float32x3);
 
-/// Vertex attributes that carry the stains of a part's mesh.
-#[derive(Clone, Copy)]
-pub(super) enum StainCarrier {
-    /// [`ATTRIBUTE_STAINS`], [`ATTRIBUTE_REST`] and [`ATTRIBUTE_REST_NORMAL`].
-    Attributes,
-    /// Vertex colours.
-    Colors,
-    /// No attributes: stains are not drawn.
-    Nothing,
-}
-
-/// Settings with which the stains of a part are written to its mesh.
-#[derive(Clone, Copy)]
-pub(super) struct StainWriter<'a> {
-    /// Kind of the part.
-    pub part: StainPart,
-    /// Colours and patterns of the stains.
-    pub paint: &'a FilmPaint,
-    /// Attributes that carry the stains.
-    pub carrier: StainCarrier,
-    /// Mean distance between vertices, in metres.
-    pub edge: f32,
-}
-
 /// Transform from the film's space, which has the prop's world scale applied, to the space of the prop's mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PartSpace {
     scale: Vec3,
+    /// Point of the scaled mesh that is zero in the film's space.
+    origin: Vec3,
     /// Whether directions change, too.
     skewed: bool,
     /// Whether the film is a mirror image of the prop's mesh.
@@ -78,10 +53,11 @@ pub(super) struct PartSpace {
 }
 
 impl PartSpace {
-    /// Returns the transform for a prop of world scale `scale`.
-    pub fn new(scale: Vec3) -> Self {
+    /// Returns the transform for a prop of world scale `scale`, whose film has its zero at `origin` of the scaled mesh.
+    pub fn new(scale: Vec3, origin: Vec3) -> Self {
         Self {
             scale,
+            origin,
             skewed: scale.x != scale.y || scale.y != scale.z || scale.x < 0.0,
             mirrored: scale.x * scale.y * scale.z < 0.0,
         }
@@ -94,7 +70,7 @@ impl PartSpace {
     }
 
     fn position(&self, p: [f32; 3]) -> [f32; 3] {
-        (Vec3::from_array(p) / self.scale).to_array()
+        ((Vec3::from_array(p) + self.origin) / self.scale).to_array()
     }
 
     /// Transforms a normal by the inverse transpose, which undoes the transform that it was read with.
@@ -127,7 +103,7 @@ pub(super) fn write_part(
     part: &MeshPart,
     attributes: SlotAttributes,
     space: PartSpace,
-    stains: StainWriter,
+    canvas: &StainCanvas,
 ) {
     let count = part.positions.len();
     let nothing = part.is_empty();
@@ -150,7 +126,7 @@ pub(super) fn write_part(
     } else {
         remove(mesh, Mesh::ATTRIBUTE_COLOR);
     }
-    if matches!(stains.carrier, StainCarrier::Attributes) {
+    if canvas.carrier() == StainCarrier::Attributes {
         insert(mesh, ATTRIBUTE_REST, whole(&part.rest, nothing, [0.0; 3]));
         insert(mesh, ATTRIBUTE_REST_NORMAL, whole(&part.rest_normals, nothing, [0.0, 0.0, 1.0]));
     } else {
@@ -158,7 +134,7 @@ pub(super) fn write_part(
         remove(mesh, ATTRIBUTE_REST_NORMAL);
         remove(mesh, ATTRIBUTE_STAINS);
     }
-    write_stains(mesh, part, stains);
+    write_stains(mesh, part, canvas);
     let [a, b, c] = space.index_order();
     let indices =
         if nothing { vec![0, 1, 2] } else { part.indices.chunks_exact(3).flat_map(|t| [t[a], t[b], t[c]]).collect() };
@@ -166,17 +142,12 @@ pub(super) fn write_part(
     let _ = mesh.try_insert_indices(Indices::U32(indices));
 }
 
-/// Writes the stains of a part whose vertices are those of the last [`write_part`].
-pub(super) fn write_stains(mesh: &mut Mesh, part: &MeshPart, stains: StainWriter) {
+/// Writes the stains of a part whose vertices are those of the last [`write_part`], as `canvas` has them.
+pub(super) fn write_stains(mesh: &mut Mesh, part: &MeshPart, canvas: &StainCanvas) {
     let nothing = part.is_empty();
-    match stains.carrier {
-        StainCarrier::Attributes => insert(mesh, ATTRIBUTE_STAINS, whole(&part.stains, nothing, [0.0; 4])),
-        StainCarrier::Colors => {
-            let own = |i| part.colors.get(i).copied().unwrap_or([1.0; 4]);
-            let color = |i| Some(stains.paint.color(stains.part, own(i), &part.sample(i)?, stains.edge));
-            let colors: Vec<_> = (0..part.positions.len()).filter_map(color).collect();
-            insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(&colors, nothing, [1.0; 4]));
-        }
+    match canvas.carrier() {
+        StainCarrier::Attributes => insert(mesh, ATTRIBUTE_STAINS, whole(canvas.stains(), nothing, [0.0; 4])),
+        StainCarrier::Colors => insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(canvas.colors(), nothing, [1.0; 4])),
         StainCarrier::Nothing => {}
     }
 }

@@ -4,22 +4,35 @@
 //!   prop's material stays in use, with stains over it as
 //!   [`StainDisplay`](crate::api::stain_display::StainDisplay) says. Every prop has its own mesh asset, so that
 //!   instances age independently.
-//! - With feature `render`, once some film has separated, two children of the film's entity
+//! - With feature `render`, once some film has separated, two children of each primitive's entity
 //!   ([`CoatingPart`](crate::api::links::CoatingPart)) draw the backs of flakes and the bare metal, with their stains.
-//!   Without that feature there are no materials for them, and they are left out.
+//!   They have the sides and holes of the primitive's material, its layers, shadow flags and visibility. Without that
+//!   feature there are no materials for them, and they are left out.
 //!
 //! Assets are changed only in frames in which the film changed.
 
+mod canvas;
+#[cfg(feature = "render")]
+mod custom_materials;
 mod film_display;
 mod film_paint;
 #[cfg(feature = "render")]
 mod material;
 mod mesh;
+#[cfg(feature = "render")]
+mod mirror;
+#[cfg(feature = "render")]
+mod outline;
+#[cfg(feature = "render")]
+mod outlines;
 mod paint;
 #[cfg(feature = "render")]
 mod part_handles;
 #[cfg(feature = "render")]
+mod part_material;
+#[cfg(feature = "render")]
 mod parts;
+mod share;
 
 use bevy::{
     app::{App, Plugin, PostUpdate},
@@ -31,22 +44,29 @@ use bevy::{
 pub(crate) use film_display::FilmDisplay;
 pub(crate) use film_paint::FilmPaint;
 #[cfg(feature = "render")]
-pub(crate) use material::ready::is_material_ready;
-#[cfg(feature = "render")]
 pub use material::{
     dress::CoatedMaterial,
     extension::{StainExtension, StainedMaterial},
     view::StainView,
 };
+#[cfg(feature = "render")]
+pub(crate) use material::{
+    dress::undress,
+    ready::{material_of, transparency_of},
+};
 pub use mesh::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 
-use crate::api::system_sets::{CoatingAttach, CoatingDisplay};
+use crate::api::{
+    display_cost::DisplayCost,
+    system_sets::{CoatingAttach, CoatingDisplay},
+};
 
 /// Plugin that draws films.
 pub(crate) struct FilmDisplayPlugin;
 
 impl Plugin for FilmDisplayPlugin {
     fn build(&self, app: &mut App) {
+        app.init_resource::<DisplayCost>();
         app.configure_sets(
             PostUpdate,
             (CoatingAttach, CoatingDisplay)
@@ -59,14 +79,20 @@ impl Plugin for FilmDisplayPlugin {
             PostUpdate,
             (
                 paint::follow_coatings,
+                share::choose_films,
                 film_display::follow_films,
                 film_display::write_fronts,
                 #[cfg(feature = "render")]
-                parts::write_parts.run_if(parts::has_materials),
+                (outlines::follow_outlines, parts::write_parts).chain().run_if(parts::has_materials),
             )
                 .chain()
                 .in_set(CoatingDisplay),
         );
+        #[cfg(feature = "render")]
+        {
+            mirror::add_mirrors(app);
+            app.add_observer(parts::on_display_removed);
+        }
         #[cfg(feature = "render")]
         if material::add_material(app) {
             app.add_systems(

@@ -2,13 +2,35 @@
 
 use bevy::{asset::Handle, ecs::entity::Entity, mesh::Mesh, pbr::StandardMaterial};
 
-use super::material::extension::StainedMaterial;
+use super::{
+    canvas::{StainCanvas, StainWriter},
+    film_paint::FilmPaint,
+    material::extension::StainedMaterial,
+    outline::Outline,
+};
+use crate::{
+    appearance::{DisplayChanges, FilmAppearance, shading::StainPart},
+    mesh_reader::SlotAttributes,
+};
 
-/// Backs and metal of a film, as far as they have been spawned.
+/// Backs and metal of a film.
 #[derive(Default)]
 pub(super) struct PartHandles {
+    /// Parts of each primitive of the prop.
+    pub slots: Vec<SlotParts>,
+    /// Whether the materials must follow a change of the coating.
+    pub outdated: bool,
+}
+
+/// Backs and metal of one primitive, as far as they have been spawned.
+#[derive(Default)]
+pub(super) struct SlotParts {
     pub backs: Option<PartHandle>,
     pub metal: Option<PartHandle>,
+    /// Outline of the primitive; `None` while it has no material.
+    pub outline: Option<Outline>,
+    /// Whether the parts must follow a change of the outline.
+    pub outdated: bool,
 }
 
 /// Entity that draws a part, and its assets.
@@ -16,6 +38,10 @@ pub(super) struct PartHandle {
     pub entity: Entity,
     pub mesh: Handle<Mesh>,
     pub material: PartMaterial,
+    /// Attributes of the prop that its mesh has.
+    pub attributes: SlotAttributes,
+    /// Stains as the mesh shows them.
+    pub canvas: StainCanvas,
 }
 
 /// Material of a part.
@@ -27,11 +53,37 @@ pub(super) enum PartMaterial {
 }
 
 impl PartHandles {
-    /// Returns the materials that draw stains in detail.
-    pub fn stained(&self) -> impl Iterator<Item = &Handle<StainedMaterial>> {
-        [&self.backs, &self.metal].into_iter().flatten().filter_map(|part| match &part.material {
-            PartMaterial::Stained(handle) => Some(handle),
-            PartMaterial::Plain(_) => None,
-        })
+    /// Brings the stains that are drawn up to date with the appearance, for parts that have been spawned.
+    pub fn follow_stains(
+        &mut self,
+        appearance: &FilmAppearance,
+        paint: &FilmPaint,
+        edge: f32,
+        changes: DisplayChanges,
+        repainted: bool,
+    ) {
+        for (slot, parts) in self.slots.iter_mut().enumerate() {
+            let backs = (StainPart::Back, &mut parts.backs, appearance.backs(slot), changes.topology);
+            let metal = (StainPart::Metal, &mut parts.metal, appearance.metal(slot), false);
+            for (kind, part, arrays, renumbered) in [backs, metal] {
+                let afresh = renumbered || changes.exposure || repainted;
+                if let (Some(part), Some(arrays)) = (part, arrays)
+                    && (afresh || changes.stains)
+                {
+                    let carrier = part.canvas.carrier();
+                    part.canvas.follow(arrays, StainWriter { part: kind, paint, carrier, edge }, afresh);
+                }
+            }
+        }
+    }
+
+    /// Returns whether `entity` draws one of the parts.
+    pub fn contains(&self, entity: Entity) -> bool {
+        self.entities().any(|part| part == entity)
+    }
+
+    /// Returns the entities that draw the parts.
+    pub fn entities(&self) -> impl Iterator<Item = Entity> {
+        self.slots.iter().flat_map(|slot| [&slot.backs, &slot.metal]).flatten().map(|part| part.entity)
     }
 }

@@ -18,6 +18,8 @@ pub struct Debris {
     pub area: f32,
     /// Number of faces of the piece.
     pub faces: u32,
+    /// Lowest face of the piece.
+    pub face: FaceId,
 }
 
 /// Changes of one step. Each list is in the order in which its changes happened.
@@ -35,7 +37,7 @@ pub struct Debris {
 /// assert_eq!(changes, FilmChanges::default());
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmChanges {
     /// Vertices that separated from the metal (VC 5.1).
     pub separated: Vec<VertexId>,
@@ -64,6 +66,17 @@ impl FilmChanges {
         self.removed.clear();
         self.debris.clear();
         self.moved = false;
+    }
+
+    /// Appends what an edit between two steps changed.
+    pub fn append(&mut self, mut edit: Self) {
+        self.separated.append(&mut edit.separated);
+        self.torn.append(&mut edit.torn);
+        self.torn_ends.append(&mut edit.torn_ends);
+        self.duplicates.append(&mut edit.duplicates);
+        self.removed.append(&mut edit.removed);
+        self.debris.append(&mut edit.debris);
+        self.moved |= edit.moved;
     }
 
     /// Returns whether a vertex separated, an edge tore or a face was removed. Constraints and pieces must then be

@@ -15,7 +15,7 @@ pub enum TearEnd {
     Opened(VertexId),
     /// The faces formed an open fan (at a junction of cracks, or on the border) and now form two fans.
     Split {
-        /// Vertex that was there before. It keeps its id and the fan that the caller of [`Topology::tear`] chose.
+        /// Vertex that was there before. It keeps its id and the fan that lies further along gravity.
         kept: VertexId,
         /// New vertex of the other fan. Its id is the highest of all vertices.
         duplicate: VertexId,
@@ -32,18 +32,9 @@ impl Topology {
     /// with the first half-edge of each fan, which can be walked with [`Topology::fan_at`], and returns whether the
     /// first fan keeps the vertex. The other fan gets a duplicate.
     ///
-    /// ```
-    /// use bevy_coating::film::{HalfEdgeId, TearEnd, Topology, VertexId};
-    ///
-    /// // Four faces around vertex 0.
-    /// let mut topology = Topology::from_triangles(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])?;
-    /// let ends = topology.tear(HalfEdgeId(0), |_, _, _| true).unwrap();
-    /// // The tear starts at the border (vertex 1) and ends inside the film (vertex 0).
-    /// assert_eq!(ends[0], TearEnd::Opened(VertexId(0)));
-    /// assert_eq!(ends[1], TearEnd::Split { kept: VertexId(1), duplicate: VertexId(5) });
-    /// # Ok::<(), bevy_coating::film::TopologyError>(())
-    /// ```
-    pub fn tear(
+    /// Forces, constraints and stains must follow: outside this crate,
+    /// [`FilmState::tear_edge`](crate::sim::FilmState::tear_edge) does all of it.
+    pub(crate) fn tear(
         &mut self,
         h: HalfEdgeId,
         mut keep_first: impl FnMut(&Self, HalfEdgeId, HalfEdgeId) -> bool,
@@ -71,7 +62,7 @@ impl Topology {
 
     /// Iterates over the half-edges of the fan that starts at `first`, counter-clockwise. Meant for `keep_first` of
     /// [`Topology::tear`], where a vertex has two fans for a moment.
-    pub fn fan_at(&self, first: HalfEdgeId) -> Fan<'_> {
+    pub(crate) fn fan_at(&self, first: HalfEdgeId) -> Fan<'_> {
         self.fan_from(first)
     }
 
@@ -91,7 +82,7 @@ impl Topology {
     }
 
     /// Returns whether the live face `f` is joined to no other face and has at least one torn edge, so that it may be
-    /// [stripped](Self::strip) (VC 5.3). Its other edges are torn or lie on the film's border.
+    /// stripped (VC 5.3). Its other edges are torn or lie on the film's border.
     ///
     /// Both ends of a torn edge have separated. At the border, the caller must also check that all three corners have.
     pub fn is_cut_out(&self, f: FaceId) -> bool {
@@ -106,19 +97,7 @@ impl Topology {
 
     /// Removes the face `f` as [stripped](FaceFate::Stripped) if it [is cut out](Self::is_cut_out), and returns whether
     /// it was. The three vertices are left without faces; they keep their ids.
-    ///
-    /// ```
-    /// use bevy_coating::film::{FaceFate, FaceId, HalfEdgeId, Topology};
-    ///
-    /// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
-    /// assert!(!topology.strip(FaceId(0)), "still bound to face 1");
-    /// topology.tear(HalfEdgeId(2), |_, _, _| true);
-    /// assert!(topology.strip(FaceId(0)));
-    /// assert_eq!(topology.fate(FaceId(0)), FaceFate::Stripped);
-    /// assert!(topology.is_live(FaceId(1)));
-    /// # Ok::<(), bevy_coating::film::TopologyError>(())
-    /// ```
-    pub fn strip(&mut self, f: FaceId) -> bool {
+    pub(crate) fn strip(&mut self, f: FaceId) -> bool {
         let cut_out = self.is_cut_out(f);
         if cut_out {
             self.remove(f, FaceFate::Stripped);
@@ -128,7 +107,7 @@ impl Topology {
 
     /// Removes the faces of a piece as [fallen](FaceFate::Fallen). `piece` must hold all live faces that are joined to
     /// one another across bound edges. Faces that were removed before are skipped.
-    pub fn drop_piece(&mut self, piece: &[FaceId]) {
+    pub(crate) fn drop_piece(&mut self, piece: &[FaceId]) {
         debug_assert!(
             piece.iter().all(|f| {
                 f.half_edges().iter().all(|&h| self.bound_twin(h).is_none_or(|t| piece.contains(&t.face())))

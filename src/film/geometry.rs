@@ -146,7 +146,8 @@ impl Geometry {
 /// Returns the signed dihedral angle between face 1 = (p1, p2, p3) and face 2 = (p2, p1, p4), in radians between 0 and
 /// 2 pi. Both faces are counter-clockwise seen from outside.
 ///
-/// Flat is pi, a valley is below pi and a ridge above it. Returns `None` if a face has no area.
+/// Flat is pi, a valley is below pi and a ridge above it. Returns `None` if a face has no area, or
+/// is so small or large that the products of its lengths leave the range of floats.
 ///
 /// VC 4.3 uses the arc cosine, which cannot tell valleys from ridges and is not smooth where the faces are flat. This
 /// form uses the arc tangent of sine and cosine, and is smooth everywhere but where the faces are folded onto each
@@ -170,5 +171,7 @@ pub fn signed_dihedral(p1: Vec3, p2: Vec3, p3: Vec3, p4: Vec3) -> Option<f32> {
     // Both values are scaled by the lengths of both normals, which the arc tangent ignores.
     let (sine, cosine) = (edge.dot(n1.cross(n2)) / length, n1.dot(n2));
     let whole = n1.length_squared() > 0.0 && n2.length_squared() > 0.0;
-    (whole && (sine != 0.0 || cosine != 0.0)).then(|| PI + ops::atan2(sine, cosine))
+    // Lengths whose products leave the range of floats tell no angle.
+    let finite = sine.is_finite() && cosine.is_finite();
+    (whole && finite && (sine != 0.0 || cosine != 0.0)).then(|| PI + ops::atan2(sine, cosine))
 }

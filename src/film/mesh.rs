@@ -3,6 +3,7 @@
 use bevy_math::Vec3;
 
 use super::{
+    direction::unit_or_zero,
     edit::TearEnd,
     geometry::Geometry,
     handles::{FaceId, HalfEdgeId},
@@ -11,7 +12,7 @@ use super::{
 
 /// The film of one coated prop: a half-edge triangle mesh with its positions.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmMesh {
     /// Connectivity of vertices, half-edges and faces.
     pub topology: Topology,
@@ -51,26 +52,13 @@ impl FilmMesh {
     ///
     /// Where the faces of an end fall into two fans, the fan that lies further along `gravity` keeps the vertex, and
     /// the other fan gets a duplicate of it. Fans are compared by the mean of their faces' centroids at rest; at a tie,
-    /// the fan with the face of the lowest id keeps the vertex. Only the direction of `gravity` matters.
+    /// the fan with the face of the lowest id keeps the vertex. Only the direction of `gravity` matters; one that is
+    /// not finite counts as none.
     ///
-    /// ```
-    /// use bevy_coating::film::{FaceId, FilmMesh, TearEnd, VertexId};
-    /// use bevy_math::Vec3;
-    ///
-    /// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
-    /// let mut film = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]])?;
-    /// let diagonal = FaceId(0).half_edges()[2]; // From vertex 2 to vertex 0.
-    ///
-    /// // Face 0 is the lower one, so it keeps both vertices.
-    /// let ends = film.tear(diagonal, Vec3::NEG_Y).unwrap();
-    /// assert_eq!(ends[0], TearEnd::Split { kept: VertexId(2), duplicate: VertexId(4) });
-    /// assert_eq!(ends[1], TearEnd::Split { kept: VertexId(0), duplicate: VertexId(5) });
-    /// assert_eq!(film.geometry.positions[4], film.geometry.positions[2]);
-    ///
-    /// assert_eq!(film.tear(diagonal, Vec3::NEG_Y), None, "torn already");
-    /// # Ok::<(), bevy_coating::film::TopologyError>(())
-    /// ```
-    pub fn tear(&mut self, h: HalfEdgeId, gravity: Vec3) -> Option<[TearEnd; 2]> {
+    /// Forces, constraints and stains must follow: outside this crate,
+    /// [`FilmState::tear_edge`](crate::sim::FilmState::tear_edge) does all of it.
+    pub(crate) fn tear(&mut self, h: HalfEdgeId, gravity: Vec3) -> Option<[TearEnd; 2]> {
+        let gravity = unit_or_zero(gravity);
         let Self { topology, geometry } = self;
         let ends = topology.tear(h, |topology, a, b| {
             let (depth_a, face_a) = fan_depth(topology, geometry, a, gravity);

@@ -3,6 +3,9 @@
 //! A [`FilmMesh`] has two parts: [`Topology`] says which faces are connected and stores no positions, and [`Geometry`]
 //! stores positions and what is measured on them. The stages of the simulation keep their own flat arrays (forces,
 //! constraints, stains), which the same [handles](HalfEdgeId) index.
+//! Whatever tears or removes anything keeps all of them in step: the stages of a step, or from outside
+//! [`FilmState::tear_edge`](crate::sim::FilmState::tear_edge) and
+//! [`FilmState::strip_face`](crate::sim::FilmState::strip_face).
 //!
 //! ```
 //! use bevy_coating::film::FilmMesh;
@@ -10,16 +13,17 @@
 //!
 //! // A unit square of two triangles.
 //! let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
-//! let mut film = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]])?;
+//! let film = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]])?;
 //!
-//! // Tear the diagonal. Both of its ends lie on the border, so each end becomes two vertices.
-//! let diagonal = film.topology.all_edges().find(|&h| film.topology.bound_twin(h).is_some()).unwrap();
-//! assert!(film.tear(diagonal, Vec3::NEG_Y).is_some());
-//! assert_eq!(film.topology.vertex_count(), 6);
+//! // Only the diagonal lies between two faces.
+//! let inner: Vec<_> = film.topology.all_edges().filter(|&h| film.topology.bound_twin(h).is_some()).collect();
+//! assert_eq!(inner.len(), 1);
+//! assert_eq!(film.geometry.rest_lengths[inner[0].index()], 2f32.sqrt());
 //! # Ok::<(), bevy_coating::film::TopologyError>(())
 //! ```
 
 mod changes;
+pub(crate) mod direction;
 mod edit;
 mod geometry;
 mod handles;
@@ -27,6 +31,7 @@ mod mesh;
 mod pieces;
 mod topology;
 mod validate;
+pub(crate) mod words;
 
 pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;

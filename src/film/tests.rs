@@ -205,3 +205,18 @@ fn bad_triangles_are_refused() {
     assert!(matches!(new(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), TopologyError::NonManifoldEdge { .. }));
     assert!(matches!(new(&[[0, 1, 2], [0, 3, 4]]), TopologyError::NonManifoldVertex { vertex: 0 }));
 }
+
+#[test]
+fn a_tear_from_border_to_border_splits_both_ends_and_the_lower_face_keeps_them() {
+    let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+    let mut film = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+    let diagonal = FaceId(0).half_edges()[2]; // From vertex 2 to vertex 0.
+    assert!(!film.topology.strip(FaceId(0)), "still bound to face 1");
+    let ends = film.tear(diagonal, Vec3::NEG_Y).unwrap();
+    assert_eq!(ends[0], TearEnd::Split { kept: VertexId(2), duplicate: VertexId(4) });
+    assert_eq!(ends[1], TearEnd::Split { kept: VertexId(0), duplicate: VertexId(5) });
+    assert_eq!(film.geometry.positions[4], film.geometry.positions[2]);
+    assert_eq!(film.tear(diagonal, Vec3::NEG_Y), None, "torn already");
+    assert!(film.topology.strip(FaceId(0)));
+    assert_eq!((film.topology.fate(FaceId(0)), film.topology.fate(FaceId(1))), (FaceFate::Stripped, FaceFate::Live));
+}

@@ -13,6 +13,9 @@ use crate::{film::FilmMesh, settings::CoatingSettings};
 /// - The binding of an edge is multiplied by exp(-[`tearing.binding_decay`] `dt`), once for each of its two faces that
 ///   has a torn edge (VC 5.2).
 ///
+/// Where `settings` are no longer those that the film was drawn with, it follows them first: see
+/// [`FilmForces::follow_settings`].
+///
 /// `moisture` holds the moisture of each vertex, from 0 (dry) to 1 (wet). Pass an empty slice while the whole film is
 /// dry: the call then takes the same time for a film of any size.
 ///
@@ -37,6 +40,7 @@ use crate::{film::FilmMesh, settings::CoatingSettings};
 /// ```
 pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSettings, moisture: &[f32], dt: f32) {
     forces.set_gamma(mesh, settings.bending.gamma);
+    forces.follow_settings(mesh, settings);
     let per_step = |rate: f32| f64::from(rate) * f64::from(dt);
     let adhesion_loss = per_step(settings.adhesion.decay);
     let wet_adhesion_loss =
@@ -52,8 +56,8 @@ pub fn age_forces(mesh: &FilmMesh, forces: &mut FilmForces, settings: &CoatingSe
     forces.binding_decay += rates.binding_decay;
     if wet_adhesion_loss > 0.0 {
         let wet_adhesion_loss = wet_adhesion_loss as f32;
-        for (base, &moisture) in forces.adhesion_bases.iter_mut().zip(moisture) {
-            *base -= wet_adhesion_loss * moisture;
+        for (lost, &moisture) in forces.adhesion_lost_wet.iter_mut().zip(moisture) {
+            *lost += wet_adhesion_loss * moisture;
         }
     }
     forces.predictions.advance(rates);

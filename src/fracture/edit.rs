@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::forces::FilmForces;
+use super::{drawn::Contraction, forces::FilmForces};
 use crate::film::{FaceId, FilmPieces, HalfEdgeId, LoosePieces, Topology, VertexId};
 
 impl FilmForces {
@@ -16,7 +16,9 @@ impl FilmForces {
 
     /// Appends a vertex with the forces of `v`. Neither of the two is a crack tip: a split vertex is a junction.
     pub(super) fn duplicate_vertex(&mut self, v: VertexId) {
-        self.adhesion_bases.push(self.adhesion_bases[v.index()]);
+        self.adhesion_drawn.push(self.adhesion_drawn[v.index()]);
+        self.adhesion_by_hand.push(self.adhesion_by_hand[v.index()]);
+        self.adhesion_lost_wet.push(self.adhesion_lost_wet[v.index()]);
         self.separated_age.push(self.separated_age[v.index()]);
         self.tips[v.index()] = Vec3::ZERO;
         self.tips.push(Vec3::ZERO);
@@ -24,7 +26,9 @@ impl FilmForces {
 
     /// Multiplies the contraction of `f` by `kept`.
     pub(super) fn relieve(&mut self, f: FaceId, kept: f32) {
-        self.contraction_bases[f.index()] = self.contraction(f) * kept - self.contraction_gained as f32;
+        let (base, drawn) = (self.contraction(f) * kept - self.contraction_gained as f32, self.drawn.contraction);
+        let share = self.contractions[f.index()].share * kept;
+        self.contractions[f.index()] = Contraction { base, share, drawn };
     }
 
     /// Makes the edges at `v` due the next time that edges are judged, if both of their ends have separated.

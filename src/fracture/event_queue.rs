@@ -47,6 +47,11 @@ impl EventQueue {
         self.basis == Some(basis) && self.places.len() == elements && self.step < u32::MAX
     }
 
+    /// Voids all predictions: all elements are due in any case when due elements are taken next.
+    pub fn void(&mut self) {
+        self.basis = None;
+    }
+
     /// Empties the queue, for predictions with a new basis, and returns the elements of `all` as due. The list is to be
     /// returned by [`EventQueue::give_back`].
     pub fn restart(&mut self, basis: Basis, elements: usize, all: impl Iterator<Item = u32>) -> Vec<u32> {

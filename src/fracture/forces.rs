@@ -4,17 +4,17 @@
 //! amounts are counted once for the whole film; what is stored for a vertex or a face is only the difference from them.
 
 use bevy_math::Vec3;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
-use super::{adhesion::adhesion_field, binding::Binding, predictions::Predictions, sigmoid::sigmoid};
+use super::{
+    binding::Binding,
+    drawn::{Contraction, Drawn},
+    predictions::Predictions,
+    sigmoid::sigmoid,
+};
 use crate::{
     film::{FaceId, FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId},
     settings::CoatingSettings,
 };
-
-/// Stream of the random numbers that choose weak edges. It keeps them independent of those that draw adhesion.
-const WEAK_EDGE_STREAM: u64 = 1;
 
 /// Forces and fracture state of one film (VC 3.3). Every force is in units of the initial contraction.
 ///
@@ -44,7 +44,7 @@ const WEAK_EDGE_STREAM: u64 = 1;
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmForces {
     /// Age at which each vertex separated; infinite while it is attached.
     pub separated_age: Vec<f32>,
@@ -56,12 +56,18 @@ pub struct FilmForces {
     pub torn_edges: u32,
     /// Number of vertices that have separated so far, duplicates not counted.
     pub separations: u32,
-    /// Adhesion of each vertex plus `adhesion_lost`. Adhesion is 0 where `adhesion_lost` is larger.
-    pub(super) adhesion_bases: Vec<f32>,
-    /// Adhesion that every vertex has lost so far.
+    /// Seed and settings that the initial forces were drawn with.
+    pub(super) drawn: Drawn,
+    /// Adhesion of each vertex before any loss: drawn with the film's seed, or set by hand.
+    pub(super) adhesion_drawn: Vec<f32>,
+    /// Whether the adhesion of each vertex was set by hand, so that it does not follow settings.
+    pub(super) adhesion_by_hand: Vec<bool>,
+    /// Adhesion that each vertex has lost by being wet, beyond what every vertex has lost.
+    pub(super) adhesion_lost_wet: Vec<f32>,
+    /// Adhesion that every vertex has lost so far. Adhesion is 0 where more was lost than there was.
     pub(super) adhesion_lost: f64,
-    /// Contraction of each face minus `contraction_gained`.
-    pub(super) contraction_bases: Vec<f32>,
+    /// Contraction of each face, less what every face has gained.
+    pub(super) contractions: Vec<Contraction>,
     /// Contraction that every face has gained so far.
     pub(super) contraction_gained: f64,
     /// Binding of each edge, at the index of its lower half-edge.
@@ -79,7 +85,7 @@ pub struct FilmForces {
 impl FilmForces {
     /// Creates the forces of a fresh film, on which every vertex is attached.
     ///
-    /// `seed` draws the adhesion of each vertex ([`adhesion_field`]) and the weak edges, each inner edge with the
+    /// `seed` draws the adhesion of each vertex ([`adhesion_field`](super::adhesion_field)) and the weak edges, each inner edge with the
     /// probability [`weak_probability`](crate::settings::TearingSettings::weak_probability) (VC 5.2). The same mesh,
     /// settings and seed give the same bits.
     ///
@@ -94,29 +100,24 @@ impl FilmForces {
     /// ```
     pub fn new(mesh: &FilmMesh, settings: &CoatingSettings, seed: u64) -> Self {
         let topology = &mesh.topology;
+        let vertices = topology.vertex_count();
         let mut forces = Self {
-            separated_age: vec![f32::INFINITY; topology.vertex_count()],
-            tips: vec![Vec3::ZERO; topology.vertex_count()],
-            adhesion_bases: adhesion_field(&mesh.geometry.rest_positions, &settings.adhesion, seed),
-            contraction_bases: vec![settings.tearing.contraction; topology.face_count()],
-            bindings: vec![Binding::new(settings.tearing.binding); topology.half_edge_count()],
+            separated_age: vec![f32::INFINITY; vertices],
+            tips: vec![Vec3::ZERO; vertices],
+            drawn: Drawn::new(seed, settings),
+            adhesion_drawn: vec![0.0; vertices],
+            adhesion_by_hand: vec![false; vertices],
+            adhesion_lost_wet: vec![0.0; vertices],
+            contractions: vec![Contraction::new(settings.tearing.contraction); topology.face_count()],
+            bindings: vec![Binding::new(0.0); topology.half_edge_count()],
             gamma: f32::NAN,
             ..Self::default()
         };
-        forces.weaken_edges(topology, settings, seed);
+        forces.draw_adhesion(mesh, &settings.adhesion);
+        forces.draw_bindings(topology, &settings.tearing);
         forces.set_gamma(mesh, settings.bending.gamma);
         forces.find_pieces(topology);
         forces
-    }
-
-    fn weaken_edges(&mut self, topology: &Topology, settings: &CoatingSettings, seed: u64) {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        rng.set_stream(WEAK_EDGE_STREAM);
-        for h in topology.all_edges().filter(|&h| topology.rest_twin(h).is_some()) {
-            if rng.random::<f32>() < settings.tearing.weak_probability {
-                self.bindings[h.index()] = Binding::new(settings.tearing.binding * settings.tearing.weak_factor);
-            }
-        }
     }
 
     /// Sets the steepness of the [`sigmoid`](super::sigmoid) in the bending force, per radian (VC eq. 4).
@@ -153,6 +154,11 @@ impl FilmForces {
         }));
     }
 
+    /// Returns the seed that the film's initial forces were drawn with.
+    pub fn seed(&self) -> u64 {
+        self.drawn.seed
+    }
+
     /// Returns whether `v` is still attached to the metal.
     #[inline]
     pub fn is_attached(&self, v: VertexId) -> bool {
@@ -162,10 +168,12 @@ impl FilmForces {
     /// Returns the adhesion of `v` to the metal, 0 or more (VC 5.1).
     #[inline]
     pub fn adhesion(&self, v: VertexId) -> f32 {
-        (self.adhesion_bases[v.index()] - self.adhesion_lost as f32).max(0.0)
+        let i = v.index();
+        (self.adhesion_drawn[i] - self.adhesion_lost_wet[i] - self.adhesion_lost as f32).max(0.0)
     }
 
-    /// Sets the present adhesion of `v`, which goes on falling with age. With an infinite adhesion `v` never separates.
+    /// Sets the present adhesion of `v`, which goes on falling with age but no longer follows settings. With an infinite
+    /// adhesion `v` never separates.
     ///
     /// ```
     /// use bevy_coating::{
@@ -182,17 +190,20 @@ impl FilmForces {
     /// # Ok::<(), bevy_coating::film::TopologyError>(())
     /// ```
     pub fn set_adhesion(&mut self, v: VertexId, adhesion: f32) {
-        self.adhesion_bases[v.index()] = adhesion + self.adhesion_lost as f32;
+        let i = v.index();
+        self.adhesion_drawn[i] = adhesion + self.adhesion_lost as f32;
+        self.adhesion_lost_wet[i] = 0.0;
+        self.adhesion_by_hand[i] = true;
         self.predictions.separations.make_due(v.0);
     }
 
     /// Returns the contraction of `f` (VC 3.3).
     #[inline]
     pub fn contraction(&self, f: FaceId) -> f32 {
-        self.contraction_bases[f.index()] + self.contraction_gained as f32
+        self.contractions[f.index()].less_gained(self.drawn.contraction) + self.contraction_gained as f32
     }
 
-    /// Sets the present contraction of `f`, which goes on growing with age.
+    /// Sets the present contraction of `f`, which goes on growing with age but no longer follows settings.
     ///
     /// ```
     /// use bevy_coating::{
@@ -210,7 +221,8 @@ impl FilmForces {
     /// # Ok::<(), bevy_coating::film::TopologyError>(())
     /// ```
     pub fn set_contraction(&mut self, topology: &Topology, f: FaceId, contraction: f32) {
-        self.contraction_bases[f.index()] = contraction - self.contraction_gained as f32;
+        let (base, drawn) = (contraction - self.contraction_gained as f32, self.drawn.contraction);
+        self.contractions[f.index()] = Contraction { base, share: 0.0, drawn };
         for h in f.half_edges() {
             self.predictions.separations.make_due(topology.origin(h).0);
             self.predictions.tears.make_due(topology.edge(h).0);
@@ -223,8 +235,8 @@ impl FilmForces {
         self.bindings[topology.edge(h).index()].force(self.binding_decay)
     }
 
-    /// Sets the present binding of the edge of `h`, which goes on decaying beside torn edges. With an infinite binding
-    /// the edge never tears.
+    /// Sets the present binding of the edge of `h`, which goes on decaying beside torn edges but no longer follows
+    /// settings. With an infinite binding the edge never tears.
     ///
     /// ```
     /// use bevy_coating::{

@@ -19,6 +19,9 @@ mod adhesion;
 mod aging;
 mod balance;
 mod binding;
+mod by_hand;
+mod digest;
+mod drawn;
 mod edit;
 mod event_queue;
 mod forces;
@@ -35,6 +38,7 @@ mod tests;
 
 pub use adhesion::adhesion_field;
 pub use aging::age_forces;
+pub use by_hand::{strip_by_hand, tear_by_hand};
 pub use forces::FilmForces;
 pub use scratch::FractureScratch;
 pub use separation::{bending_force, separate, separation_age};

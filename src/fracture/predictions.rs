@@ -46,6 +46,12 @@ impl Predictions {
         self.tears.advance();
     }
 
+    /// Voids all predicted events, as the forces are others now: the next step judges every vertex and every edge.
+    pub fn void_events(&mut self) {
+        self.separations.void();
+        self.tears.void();
+    }
+
     /// Returns the numbers that predicted separations depend on.
     pub fn separation_basis(&self, gain: f32, gamma: f32) -> Basis {
         let Rates { adhesion_loss, wet_adhesion_loss, contraction_growth, .. } = self.rates;

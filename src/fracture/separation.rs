@@ -2,7 +2,7 @@
 
 use super::forces::FilmForces;
 use crate::{
-    film::{FilmChanges, FilmMesh, VertexId},
+    film::{FilmChanges, FilmMesh, Topology, VertexId},
     settings::CoatingSettings,
 };
 
@@ -113,17 +113,25 @@ pub fn separate(
         }
         let ring = OneRing::new(mesh, forces, v, gain);
         if ring.force > forces.adhesion(v) {
-            forces.separated_age[v.index()] = age;
-            forces.separations += 1;
-            forces.predictions.pieces.vertex_separated(topology, v);
-            forces.make_edges_due(topology, v);
-            changes.separated.push(v);
+            let_go(topology, forces, v, age, changes);
         } else {
             let steps = ring.steps_until_separation(forces, v);
             forces.predictions.separations.schedule(v.0, steps);
         }
     }
     forces.predictions.separations.give_back(due);
+}
+
+/// Separates `v` from the metal at `age`, whatever holds it. Does nothing if it has separated before.
+pub(super) fn let_go(topology: &Topology, forces: &mut FilmForces, v: VertexId, age: f32, changes: &mut FilmChanges) {
+    if !forces.is_attached(v) {
+        return;
+    }
+    forces.separated_age[v.index()] = age;
+    forces.separations += 1;
+    forces.predictions.pieces.vertex_separated(topology, v);
+    forces.make_edges_due(topology, v);
+    changes.separated.push(v);
 }
 
 /// Bending forces of a one-ring on its vertex.
@@ -161,7 +169,7 @@ impl OneRing {
         if self.lift == 0.0 || adhesion == f64::INFINITY {
             return f64::INFINITY;
         }
-        let base = f64::from(forces.adhesion_bases[v.index()].abs());
+        let base = f64::from(forces.adhesion_drawn[v.index()].abs() + forces.adhesion_lost_wet[v.index()]);
         let rates = forces.predictions.rates;
         // Each term of a sum may be off by half the last place of the largest term, and so may each step while it is
         // wet.

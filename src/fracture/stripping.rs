@@ -96,7 +96,7 @@ fn drop_pieces(mesh: &mut FilmMesh, forces: &mut FilmForces, limit: u32, changes
 }
 
 /// Describes the piece that consists of `faces`, as it is before they are removed.
-fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
+pub(super) fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
     let (mut position, mut normal, mut area) = (Vec3::ZERO, Vec3::ZERO, 0.0);
     for &f in faces {
         let corners = mesh.topology.corners(f);
@@ -111,5 +111,6 @@ fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
         normal: normal.normalize_or_zero(),
         area,
         faces: faces.len() as u32,
+        face: faces.iter().copied().min().unwrap_or(FaceId(0)),
     }
 }

@@ -139,7 +139,7 @@ fn tear_in_order(
 }
 
 /// Tears `edge` and keeps forces, predictions and `changes` in step.
-fn tear_edge(
+pub(super) fn tear_edge(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
     settings: &TearingSettings,

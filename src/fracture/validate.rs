@@ -28,10 +28,12 @@ impl FilmForces {
     pub fn validate(&self, topology: &Topology) -> Result<(), InvariantError> {
         let (vertices, half_edges) = (topology.vertex_count(), topology.half_edge_count());
         for (name, found, expected) in [
-            ("adhesion", self.adhesion_bases.len(), vertices),
+            ("adhesion_drawn", self.adhesion_drawn.len(), vertices),
+            ("adhesion_by_hand", self.adhesion_by_hand.len(), vertices),
+            ("adhesion_lost_wet", self.adhesion_lost_wet.len(), vertices),
             ("separated_age", self.separated_age.len(), vertices),
             ("tips", self.tips.len(), vertices),
-            ("contraction", self.contraction_bases.len(), topology.face_count()),
+            ("contraction", self.contractions.len(), topology.face_count()),
             ("bindings", self.bindings.len(), half_edges),
             ("bend_weights", self.bend_weights.len(), half_edges),
         ] {

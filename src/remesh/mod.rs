@@ -23,6 +23,7 @@ mod reference;
 mod relax;
 mod resolution;
 pub mod sample;
+mod share;
 mod sites;
 mod sizing;
 mod split;
@@ -33,6 +34,7 @@ mod work_mesh;
 
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
 pub use resolution::FilmResolution;
+pub use share::{LEAST_TRIANGLES, share_triangles};
 
 use crate::surface::{BuildError, Surface, clean};
 use frame::Frame;

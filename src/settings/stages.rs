@@ -26,6 +26,9 @@ macro_rules! define_structs {
     )+) => {
         /// Settings of a coating, one struct for each stage.
         ///
+        /// Every setting acts on films under way: see the documentation of each. What has torn stays torn, and what has
+        /// come off stays off.
+        ///
         /// The defaults were found by trial on plates, a curved plate, a vase and the Stanford bunny. Reading checks
         /// names and ranges. After changing fields in code, call [`CoatingSettings::validate`].
         ///

@@ -11,83 +11,104 @@ macro_rules! with_stages {
     ($then:ident) => {
         $then! {
             /// Adhesion of the film to the metal (VC 5.1). It varies over the film by Perlin noise and falls with age.
-            /// A vertex separates when the bending force on it exceeds its adhesion.
+            /// A vertex separates when the bending force on it exceeds its adhesion. When the initial adhesion is
+            /// changed on a film under way, it is drawn again with the film's seed; what was lost since stays lost, and
+            /// what has separated stays so.
             adhesion: AdhesionSettings {
-                /// Mean adhesion of a fresh film, as a force. A flat film feels a force of 1 when fresh, so
-                /// separation starts where the noise falls below that. Found by trial.
+                /// Mean adhesion of a fresh film, as a force. A flat film feels a force of 1 when fresh, so separation
+                /// starts where the noise falls below that. On a film under way a change raises or lowers the present
+                /// adhesion by as much. Found by trial.
                 mean: f32 = 2.1, closed(0.0, 100.0);
                 /// Standard deviation of a fresh film's adhesion, as a force. At 0 the adhesion is the same everywhere.
-                /// Where the noise makes it negative, it is 0. Found by trial.
+                /// Where the noise makes it negative, it is 0. On a film under way a change makes weak places weaker
+                /// and strong ones stronger, or the other way round. Found by trial.
                 deviation: f32 = 0.70, closed(0.0, 100.0);
                 /// Number of octaves of the noise. Each octave has twice the frequency and half the amplitude of the
-                /// one before.
+                /// one before. On a film under way a change draws the noise again.
                 octaves: u32 = 2, closed(1.0, 8.0);
                 /// Number of cycles of the first octave over the longest side of the film's bounding box. More cycles
-                /// make more and smaller patches of weak and strong adhesion. Found by trial.
+                /// make more and smaller patches of weak and strong adhesion. On a film under way a change draws the
+                /// noise again. Found by trial.
                 frequency: f32 = 5.0, closed(0.01, 1000.0);
-                /// Adhesion that is lost per unit age, as a force. This is VC's speed of deterioration w.
+                /// Adhesion that is lost per unit age, as a force. This is VC's speed of deterioration w. On a film
+                /// under way a change acts on what is lost from then on.
                 decay: f32 = 1.0, closed(0.0, 100.0);
             }
             /// Bending force that lifts the film off the metal (VC 5.1, eq. 4).
             bending: BendingSettings {
                 /// Ratio of the bending force to the contraction of a face, VC's k. At 1/3 the bending force on a
-                /// vertex with six neighbours in a flat film is exactly the contraction of one face.
+                /// vertex with six neighbours in a flat film is exactly the contraction of one face. On a film under
+                /// way a change acts at once on what is still attached.
                 gain: f32 = 1.0 / 3.0, closed(0.0, 100.0);
                 /// Steepness of the sigmoid over the dihedral angle, per radian, VC's gamma (fig. 8). A larger value
-                /// makes convex places separate earlier and concave ones later. At 0 the shape has no effect.
+                /// makes convex places separate earlier and concave ones later. At 0 the shape has no effect. On a film
+                /// under way a change acts at once on what is still attached.
                 gamma: f32 = 2.0, closed(0.0, 50.0);
             }
             /// Contraction of the film, binding between its faces, and cracks (VC 5.2).
             tearing: TearingSettings {
                 /// Contraction force of a fresh face, VC's T. It is the unit of all forces, so it is rarely worth
-                /// changing.
+                /// changing. On a film under way faces keep what they gained, and faces beside cracks the share that
+                /// they kept.
                 contraction: f32 = 1.0, closed(0.0, 100.0);
                 /// Contraction that a face gains per unit age, as a force. An edge tears when the contraction of its
-                /// two faces together exceeds its binding.
+                /// two faces together exceeds its binding. On a film under way a change acts on what is gained from
+                /// then on.
                 contraction_growth: f32 = 1.0, closed(0.0, 100.0);
                 /// Share of its contraction that a face keeps when one of its edges tears. At 1 a crack relieves
-                /// nothing, and the film breaks into smaller pieces. Found by trial.
+                /// nothing, and the film breaks into smaller pieces. On a film under way a change acts on later tears.
+                /// Found by trial.
                 contraction_kept: f32 = 0.3, closed(0.0, 1.0);
-                /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or all
-                /// edges tear at once. Found by trial.
+                /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or all edges
+                /// tear at once. On a film under way edges beside cracks keep the share that they have left. Found by
+                /// trial.
                 binding: f32 = 6.0, closed(0.0, 1_000_000.0);
                 /// Rate at which the bound edges of a face with a torn edge lose binding, per unit age. The binding
-                /// falls by the factor exp(-rate age), once for each such face at the edge. Found by trial.
+                /// falls by the factor exp(-rate age), once for each such face at the edge. On a film under way a
+                /// change acts on what is lost from then on. Found by trial.
                 binding_decay: f32 = 1.3, closed(0.0, 100.0);
                 /// Probability that an edge is a defect from which cracks start (VC 5.2). At 0 no edge tears unless the
-                /// contraction alone exceeds the binding.
+                /// contraction alone exceeds the binding. On a film under way a higher value adds defects to those
+                /// there are, and a lower one takes some away where nothing has torn yet.
                 weak_probability: f32 = 0.01, closed(0.0, 1.0);
-                /// Share of the binding that a defect has (VC 5.2).
+                /// Share of the binding that a defect has (VC 5.2). On a film under way it acts on the defects that
+                /// have not torn yet.
                 weak_factor: f32 = 0.001, closed(0.0, 1.0);
                 /// Straightness of cracks, as a cosine (VC 5.2). An edge at the tip of a crack tears easily if the
                 /// cosine of its angle to the crack's direction is above this. A higher value makes fewer and
-                /// straighter cracks.
+                /// straighter cracks. On a film under way a change acts on the growth of cracks from then on.
                 alpha: f32 = 0.45, open(-1.0, 1.0);
                 /// Share of the binding that counts for an edge ahead of the tip of a crack (VC 5.2). Cracks stop
                 /// growing if it is above the ratio of the contraction of two faces to the binding. At 1 edges at tips
-                /// tear no easier than others.
+                /// tear no easier than others. On a film under way a change acts on the growth of cracks from then on.
                 beta: f32 = 0.20, closed(0.0, 1.0);
             }
             /// Bending of the separated film by position-based dynamics without inertia, PBD-2 (VC 4).
             deform: DeformSettings {
                 /// Rate at which the target dihedral angles of separated edges become narrower, in radians per unit
-                /// age. Found by trial.
+                /// age. On a film under way a change wakes what has come to rest. Found by trial.
                 narrowing_rate: f32 = 0.7, closed(0.0, 100.0);
                 /// Largest difference between the initial and the target angle of an edge, in radians. Values of 0.2 to
-                /// 0.5 curl flakes; above about 1.5 the film folds over. Found by trial.
+                /// 0.5 curl flakes; above about 1.5 the film folds over. On a film under way a higher value lets all
+                /// flakes curl on; a lower one stops those that are beyond it, but does not bend them back. Found by
+                /// trial.
                 bend_limit: f32 = 0.35, closed(0.0, std::f32::consts::PI);
                 /// Number of plain solver sweeps per unit age. It sets how far flakes lift, since bending is a slow
-                /// creep that does not come to an end within a step. At 0 the film does not bend. Found by trial.
+                /// creep that does not come to an end within a step. At 0 the film does not bend. On a film under way a
+                /// change acts from the next step on. Found by trial.
                 sweeps_per_age: f32 = 10_000.0, closed(0.0, 1_000_000.0);
             }
             /// Stripping of faces that are torn off all around (VC 5.3), and the fall of loose pieces.
             stripping: StrippingSettings {
                 /// Largest number of faces of a loose piece that falls off. A piece is loose if none of its vertices is
-                /// attached; larger loose pieces stay. At 0 none falls, as in the paper.
+                /// attached; larger loose pieces stay. At 0 none falls, as in the paper. On a film under way a higher
+                /// value lets pieces fall that hang loose already.
                 fall_faces: u32 = 6, closed(0.0, 1_000_000.0);
             }
             /// Rust that runs off below cracks and stains the surface on its way (VC 6.1), and rust of the metal
-            /// itself. Lengths are in metres, so that streaks do not depend on the resolution of the film.
+            /// itself. Lengths are in metres, so that streaks do not depend on the resolution of the film. On a film
+            /// under way a change acts on what runs off, dries on and rusts from the next tick on; stains that are
+            /// there stay.
             rust: RustSettings {
                 /// Rust that the lower end of a crack gives off per unit age and metre of that crack, in layers of rust
                 /// times metres (VC 6.1). At 0 no rust runs off. Found by trial.
@@ -108,7 +129,8 @@ macro_rules! with_stages {
                 corrosion: f32 = 4.0, closed(0.0, 1000.0);
             }
             /// Black stains: dust and soot (VC 6.2, fig. 11). Height, direction and curvature slow down or speed up the
-            /// dust, each with a weight. A factor whose weight is 0 has no effect.
+            /// dust, each with a weight. A factor whose weight is 0 has no effect. On a film under way a change acts on
+            /// the dust that gathers from the next tick on.
             dust: DustSettings {
                 /// Rate at which dust gathers where no factor changes it, per unit age. At 0 there is no dust.
                 rate: f32 = 1.2, closed(0.0, 1000.0);
@@ -122,7 +144,7 @@ macro_rules! with_stages {
                 curvature: f32 = 1.0, closed(0.0, 1.0);
             }
             /// Moisture of the surfaces and its effects. There is no moisture before the first rain. An effect whose
-            /// setting is 0 is switched off.
+            /// setting is 0 is switched off. On a film under way a change acts from the next tick on.
             moisture: MoistureSettings {
                 /// Rate at which surfaces that face full rain get wet, per unit age.
                 wetting: f32 = 60.0, closed(0.0, 10_000.0);

@@ -17,7 +17,7 @@ pub const DEFAULT_STEPS_PER_AGE: u32 = 1000;
 /// assert_eq!(clock.step_at(0.75), 375);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmClock {
     /// Number of steps taken so far.
     pub steps: u64,

@@ -1,6 +1,6 @@
 //! Adds up the lengths of cracks that drain to the same place.
 
-use crate::film::VertexId;
+use crate::film::{VertexId, words::Words};
 
 /// Length of the cracks that drain to each place. A torn edge leads rust from its upper to its lower end; where several
 /// torn edges lead to the same place, their lengths add up.
@@ -40,8 +40,27 @@ impl Catchments {
         v
     }
 
+    /// Appends where each place drains to, and the lengths.
+    pub fn write_state(&self, to: &mut Words) {
+        let Self { drains, lengths } = self;
+        to.list(drains.iter().copied());
+        to.floats(lengths);
+    }
+
     /// Returns the length in metres of the cracks that drain to `original` and no further.
     pub fn length(&self, original: VertexId) -> f32 {
         self.lengths[original.index()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_catchments_counts() {
+        let changes: [fn(&mut Catchments); 2] = [|places| places.drains[0] = 1, |places| places.lengths[0] = 1.0];
+        assert_each_counts(&Catchments::new(2), Catchments::write_state, &changes);
     }
 }

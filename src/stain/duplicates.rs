@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
+use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId, words::Words};
 
 /// Film vertices of each original vertex, and its fan at rest.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +21,13 @@ impl Duplicates {
             next: vec![VertexId::NONE; topology.vertex_count()],
             rest_fans: topology.all_vertices().map(|v| topology.fan(v).next().unwrap_or(HalfEdgeId::NONE)).collect(),
         }
+    }
+
+    /// Appends the chains of duplicates.
+    pub fn write_state(&self, to: &mut Words) {
+        // The fans at rest follow from the film.
+        let Self { next, rest_fans: _ } = self;
+        to.list(next.iter().map(|v| v.0));
     }
 
     /// Returns the number of film vertices, duplicates included.

@@ -2,7 +2,9 @@
 
 use bevy_math::Vec3;
 
-use super::{catchments::Catchments, duplicates::Duplicates, dust::rates::DustRates, flow::Flow, layer::StainLayer};
+use super::{
+    catchments::Catchments, duplicates::Duplicates, dust::rates::DustRates, flow::Flow, layer::StainLayer, shown::Shown,
+};
 use crate::film::FilmMesh;
 
 /// State of a vertex as a source of rust (VC 6.1, fig. 9).
@@ -66,7 +68,7 @@ pub struct Exposure {
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct StainFields {
     /// Stains on the film: one entry for each film vertex, duplicates included.
     pub film: StainLayer,
@@ -85,8 +87,11 @@ pub struct StainFields {
     /// (layers times square metres), so not of unit length. Display draws fine streaks along it; they keep their
     /// direction when the prop is turned later.
     pub streaks: Vec3,
-    /// Counter that changes whenever visible stains may have changed, so that display needs to follow only then.
+    /// Counter that changes whenever stains look different, so that display needs to follow only then: something tore or
+    /// came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since the counter last did.
     pub revision: u32,
+    /// Stains as they were when the revision last changed.
+    pub(super) shown: Shown,
     /// Openness of the metal at each original vertex: from 0 (under film that holds) to 1 (bare).
     pub(super) openness: Vec<f32>,
     /// Original vertices with an openness above 0, in the order in which they opened.

@@ -6,7 +6,7 @@ use super::{
     duplicates::Duplicates,
     outflow::{Outflow, Ring},
 };
-use crate::film::{FilmMesh, VertexId};
+use crate::film::{FilmMesh, VertexId, words::Words};
 
 /// Change of the pull, a vector, below which the ways are kept.
 const SAME_PULL: f32 = 1e-3;
@@ -132,6 +132,16 @@ impl Flow {
         Some((rank, VertexId(self.order[rank])))
     }
 
+    /// Appends what the ways were computed for, which is kept through small changes, and where there is run-off.
+    pub fn write_state(&self, to: &mut Words) {
+        // Order, ways and lowest vertices follow from these and the film's cracks.
+        let Self { pull, spread, into_cracks, order: _, ranks: _, awake, film: _, metal: _, lowest: _, ring: _ } = self;
+        to.vector(*pull);
+        to.float(*spread);
+        to.float(*into_cracks);
+        to.longs(awake.iter().copied());
+    }
+
     /// Returns the number of places in the order.
     pub fn len(&self) -> usize {
         self.order.len()
@@ -167,5 +177,22 @@ impl Flow {
             self.metal[original.index()] = Outflow::of_metal(mesh, duplicates, original, way, &mut self.ring);
         }
         self.metal[original.index()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_flow_counts() {
+        let changes: [fn(&mut Flow); 4] = [
+            |flow| flow.pull = Vec3::X,
+            |flow| flow.spread = 0.5,
+            |flow| flow.into_cracks = 0.5,
+            |flow| flow.wake(VertexId(1)),
+        ];
+        assert_each_counts(&Flow::new(2), Flow::write_state, &changes);
     }
 }

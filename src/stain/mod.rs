@@ -13,6 +13,7 @@
 
 mod catchments;
 mod corrosion;
+mod digest;
 mod duplicates;
 mod dust;
 mod environment;
@@ -24,6 +25,7 @@ mod moisture;
 mod outflow;
 mod rust;
 mod shape;
+pub(crate) mod shown;
 mod slope;
 mod sources;
 mod ticks;

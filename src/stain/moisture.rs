@@ -83,6 +83,7 @@ pub fn moisten(
     environment: &Environment,
     dt: f32,
 ) {
+    let environment = &environment.in_range();
     let raining = environment.rain != Vec3::ZERO;
     if !raining && !stains.damp {
         return;
@@ -124,7 +125,7 @@ pub fn moisten(
         stains.film.moisture.fill(0.0);
         stains.metal.moisture.fill(0.0);
     }
-    stains.revision = stains.revision.wrapping_add(1);
+    stains.revise_if_seen();
 }
 
 /// Weather over one film.

@@ -55,6 +55,7 @@ pub fn run_off(
     environment: &Environment,
     dt: f32,
 ) {
+    let environment = &environment.in_range();
     corrode(stains, settings, dt);
     let RustSettings { spread, into_cracks, .. } = settings.rust;
     let spread = (spread * spread + environment.gusts * environment.gusts).sqrt();
@@ -77,7 +78,7 @@ pub fn run_off(
         stains.streaks += stains.flow.pull.normalize_or_zero() * pass.stained;
     }
     if !(stains.open.is_empty() && stains.flow.is_asleep()) {
-        stains.revision = stains.revision.wrapping_add(1);
+        stains.revise_if_seen();
     }
 }
 

@@ -6,7 +6,7 @@ use super::{
     fields::{RustSource, StainFields},
     sources::{end_source, judge},
 };
-use crate::film::{FilmChanges, FilmMesh, TearEnd, VertexId};
+use crate::film::{FilmChanges, FilmMesh, TearEnd, VertexId, direction::unit_or_zero};
 
 /// Openness of the metal beside a crack or beside a bare place: rust creeps under the film.
 const BESIDE: f32 = 0.15;
@@ -23,34 +23,15 @@ const BARE: f32 = 1.0;
 /// [`RustBudget::dripped`](super::RustBudget::dripped). Metal in cracks, beside them and under removed faces counts as
 /// open from now on.
 ///
-/// `mesh` is the film after the step, `changes` what the step changed, and `gravity` a unit vector in the film's space,
-/// or zero.
+/// `mesh` is the film after the step, `changes` what the step changed, and `gravity` a direction in the film's
+/// space, or zero.
 ///
-/// ```
-/// use bevy_coating::{
-///     film::{FilmChanges, FilmMesh, HalfEdgeId, TearEnd},
-///     stain::{StainFields, update_stains},
-/// };
-/// use bevy_math::Vec3;
-///
-/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
-/// let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
-/// let mut stains = StainFields::new(&mesh);
-/// stains.film.dust[1] = 0.5;
-///
-/// let mut changes = FilmChanges::default();
-/// changes.torn_ends.extend(mesh.tear(HalfEdgeId(1), Vec3::NEG_Y));
-/// changes.torn.push(HalfEdgeId(1));
-/// update_stains(&mesh, &mut stains, &changes, Vec3::NEG_Y);
-///
-/// assert_eq!(mesh.topology.vertex_count(), 6, "both ends of the torn edge lie on the border and were split");
-/// assert_eq!(stains.film.dust, [0.0, 0.5, 0.0, 0.0, 0.5, 0.0]);
-/// # Ok::<(), bevy_coating::film::TopologyError>(())
-/// ```
+/// The stages of a step and [`FilmState::tear_edge`](crate::sim::FilmState::tear_edge) call it.
 pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmChanges, gravity: Vec3) {
     if changes.torn.is_empty() && changes.removed.is_empty() {
         return;
     }
+    let gravity = unit_or_zero(gravity);
     let topology = &mesh.topology;
     for (&edge, &ends) in changes.torn.iter().zip(&changes.torn_ends) {
         for end in ends {
@@ -80,7 +61,7 @@ pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmCh
     for v in torn.chain(removed) {
         update_place(mesh, stains, topology.original(v));
     }
-    stains.revision = stains.revision.wrapping_add(1);
+    stains.revise();
 }
 
 impl StainFields {

@@ -19,7 +19,7 @@ use crate::{
         messages::{FirstCrack, PieceFallen},
     },
     appearance::DisplayChanges,
-    film::{FilmChanges, FilmMesh},
+    film::{FaceId, FilmChanges, FilmMesh},
     sim::{FilmClock, Stage},
     stain::StainFields,
 };
@@ -45,14 +45,15 @@ pub(super) fn report(
             if !pace.due {
                 continue;
             }
-            let world = FilmToWorld { transform, scale: source.scale };
+            let world = FilmToWorld { transform, scale: source.scale, origin: source.origin };
             if let (false, Some(&edge)) = (pace.cracked, changes.torn.first()) {
                 pace.cracked = true;
                 let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
                 let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
                 cracks.write(FirstCrack { entity, age: clock.age(), position: world.point((a + b) / 2.0) });
             }
-            for debris in &changes.debris {
+            let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
+            for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {
                 pieces.write(PieceFallen {
                     entity,
                     position: world.point(debris.position),
@@ -70,11 +71,12 @@ pub(super) fn report(
 struct FilmToWorld<'a> {
     transform: &'a GlobalTransform,
     scale: Vec3,
+    origin: Vec3,
 }
 
 impl FilmToWorld<'_> {
     fn point(&self, p: Vec3) -> Vec3 {
-        self.transform.transform_point(p / self.scale)
+        self.transform.transform_point((p + self.origin) / self.scale)
     }
 
     fn direction(&self, d: Vec3) -> Vec3 {

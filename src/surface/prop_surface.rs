@@ -43,6 +43,59 @@ pub struct Surface {
     pub colors: Vec<Vec4>,
 }
 
+impl Surface {
+    /// Returns the area of all triangles that can be measured, in square metres.
+    ///
+    /// ```
+    /// use bevy_coating::surface::Surface;
+    /// use bevy_math::Vec3;
+    ///
+    /// let positions = vec![Vec3::ZERO, Vec3::X * 2.0, Vec3::Y];
+    /// let surface = Surface { positions, triangles: vec![[0, 1, 2]], ..Surface::default() };
+    /// assert_eq!(surface.area(), 1.0);
+    /// ```
+    pub fn area(&self) -> f64 {
+        let corner = |v: u32| self.positions.get(v as usize).map(|p| p.as_dvec3());
+        let areas = self.triangles.iter().filter_map(|&[a, b, c]| {
+            let (a, b, c) = (corner(a)?, corner(b)?, corner(c)?);
+            Some((b - a).cross(c - a).length() * 0.5).filter(|area| area.is_finite())
+        });
+        areas.sum()
+    }
+
+    /// Moves a surface that lies far from its space's zero to around zero, and returns the point that zero is now: add
+    /// it to a position to get the old one. Surfaces that are not far away stay where they are, and zero is returned.
+    ///
+    /// Single precision has seven digits: a prop that was modelled a kilometre from its origin would move in steps of
+    /// 0.06 mm. Far is more than eight times the size of the surface.
+    ///
+    /// ```
+    /// use bevy_coating::surface::Surface;
+    /// use bevy_math::Vec3;
+    ///
+    /// let far = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|corner| corner + Vec3::Z * 1024.0);
+    /// let mut surface = Surface { positions: far.to_vec(), triangles: vec![[0, 1, 2]], ..Surface::default() };
+    /// assert_eq!(surface.recentre(), Vec3::new(0.5, 0.5, 1024.0));
+    /// assert_eq!(surface.positions[1], Vec3::new(0.5, -0.5, 0.0));
+    /// ```
+    pub fn recentre(&mut self) -> Vec3 {
+        let finite = || self.positions.iter().filter(|p| p.is_finite()).map(|p| p.as_dvec3());
+        let bounds = finite().map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)));
+        let Some((low, high)) = bounds else { return Vec3::ZERO };
+        let middle = (low * 0.5 + high * 0.5).as_vec3();
+        if !middle.is_finite() || middle.as_dvec3().length() <= FAR * (high - low).length() {
+            return Vec3::ZERO;
+        }
+        for position in &mut self.positions {
+            *position = (position.as_dvec3() - middle.as_dvec3()).as_vec3();
+        }
+        middle
+    }
+}
+
+/// Distance from zero, in sizes of the surface, beyond which single precision is too coarse.
+const FAR: f64 = 8.0;
+
 /// Point on a [`Surface`], given by a triangle and barycentric weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceSite {

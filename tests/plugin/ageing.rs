@@ -22,8 +22,9 @@ fn reference(n: u32, coating: &Coating) -> (FilmState, CoatingSettings) {
         ..Surface::default()
     };
     let SettingsSource::Inline(settings) = coating.settings.clone() else { panic!("inline settings") };
-    let built = build_film(&surface, coating.resolution, coating.seed).expect("a film");
-    let film = FilmState::new(&built, &settings, coating.seed, coating.steps_per_age).expect("a manifold");
+    let seed = coating.seed.expect("a fixed seed");
+    let built = build_film(&surface, coating.resolution, seed).expect("a film");
+    let film = FilmState::new(&built, &settings, seed, coating.steps_per_age).expect("a manifold");
     (film, settings)
 }
 

@@ -18,13 +18,24 @@ mod ageing;
 mod attach;
 mod budget;
 mod clock;
+mod clones;
 mod display;
+mod groups;
+#[cfg(feature = "render")]
+mod mask_picture;
+#[cfg(feature = "render")]
+mod outline;
 #[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
+mod rebuilding;
+mod recovery;
+mod rest;
+mod seeds;
 mod settings;
 mod shelter;
+mod soak;
 mod stain_display;
 mod stains;
 #[cfg(feature = "render")]

@@ -194,3 +194,59 @@ fn a_film_that_never_comes_to_rest_goes_on() {
         app.world().resource::<CoatingStatus>().youngest >= 0.5
     });
 }
+
+/// Longest and mean frame of so many, in milliseconds.
+fn frame_times(app: &mut App, mut frames: impl FnMut(&mut App) -> bool) -> (f64, f64, u32) {
+    let (mut longest, mut sum, mut count) = (0.0f64, 0.0, 0);
+    while frames(app) {
+        let begin = std::time::Instant::now();
+        app.update();
+        let milliseconds = begin.elapsed().as_secs_f64() * 1e3;
+        (longest, sum, count) = (longest.max(milliseconds), sum + milliseconds, count + 1);
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    (longest, sum / f64::from(count), count)
+}
+
+/// Prints what shelter costs with many props, each of which shelters the others. For machines that do nothing else:
+/// `cargo test --test plugin thousand -- --ignored --nocapture`.
+#[test]
+#[ignore = "measures time"]
+fn a_thousand_props_in_the_first_rain() {
+    const SIDE: u32 = 32;
+    let mut app = app();
+    let mut roof = None;
+    for i in 0..SIDE * SIDE {
+        let place = Vec3::new((i % SIDE) as f32, 0.0, (i / SIDE) as f32) * 4.0;
+        // Every prop has a mesh of its own, as in a level.
+        let mesh = add_mesh(&mut app, plate(16));
+        let transform = lying().with_translation(place);
+        roof = Some(app.world_mut().spawn((Mesh3d(mesh), transform, quick_coating(), RainShelter)).id());
+    }
+    let films = (SIDE * SIDE) as usize;
+    wait_for_films(&mut app, films);
+    let (longest, mean, _) = frame_times(&mut app, {
+        let mut left = 50;
+        move |_| {
+            left -= 1;
+            left > 0
+        }
+    });
+    println!("dry: longest frame {longest:.2} ms, mean {mean:.2} ms");
+    app.insert_resource(RAIN);
+    let mut request = app.world_mut().resource_mut::<CoatingClock>();
+    request.request_steps(1);
+    let (longest, mean, frames) = frame_times(&mut app, |app| {
+        let world = app.world_mut();
+        world.query::<&FilmClock>().iter(world).any(|clock| clock.steps == 0)
+    });
+    println!("first rain: longest frame {longest:.2} ms, mean {mean:.2} ms, {frames} frames until all are known");
+    let mut left = 100;
+    let (longest, mean, _) = frame_times(&mut app, |app| {
+        let mut transform = app.world_mut().get_mut::<Transform>(roof.expect("props")).expect("a prop");
+        transform.translation.x += 0.01;
+        left -= 1;
+        left > 0
+    });
+    println!("one prop moves: longest frame {longest:.2} ms, mean {mean:.2} ms");
+}

@@ -10,7 +10,7 @@ use bevy::{
 use bevy_coating::{CoatedMaterial, StainedMaterial, prelude::*};
 
 use crate::{
-    common::{add_mesh, plate, quick_coating, update_until},
+    common::{add_mesh, messages, plate, quick_coating, update_until},
     studio::Studio,
 };
 
@@ -74,10 +74,12 @@ fn a_coated_prop_wears_its_own_material_with_stains_and_gets_it_back() {
     app.update();
     assert!(app.world().get::<Own>(prop).is_none() && app.world().get::<Worn>(prop).is_some());
 
-    // Building it anew goes by way of its own material.
-    app.world_mut().get_mut::<Coating>(prop).expect("a coating").seed = 9;
-    app.update();
-    update_until(app, |app| app.world().get::<Worn>(prop).is_some());
+    // While another film is built, the prop keeps the film and the material that it has.
+    app.world_mut().get_mut::<Coating>(prop).expect("a coating").seed = Some(9);
+    update_until(app, |app| {
+        assert!(app.world().get::<Worn>(prop).is_some());
+        !messages::<FilmReady>(app).is_empty()
+    });
     assert_eq!(app.world().get::<CoatedMaterial>(prop), Some(&CoatedMaterial(own.clone())));
 
     app.world_mut().entity_mut(prop).remove::<Coating>();

@@ -64,7 +64,8 @@ fn the_shader_draws_what_its_twin_says() {
         for part in [StainPart::Film, StainPart::Back, StainPart::Metal] {
             let shading = FilmShading::default();
             for view in [StainView::BaseColor, StainView::Surface] {
-                let extension = StainExtension { part, shading: shading.clone(), pattern: pattern(), view };
+                let extension =
+                    StainExtension { part, shading: shading.clone(), pattern: pattern(), view, ..default() };
                 let material = StainedMaterial { base: base_material(), extension };
                 let plate = spawn_stained(&mut studio.app, stained_plate(1.2, 240, fields), material);
                 let picture = studio.shoot(Vec3::Z * eye, Vec3::ZERO);
@@ -93,7 +94,8 @@ fn relief_bends_the_normal_as_the_height_says() {
     let Some(mut studio) = Studio::open(SIZE.0, SIZE.1, ".") else { return };
     let shading = FilmShading::default();
     let part = StainPart::Metal;
-    let extension = StainExtension { part, shading: shading.clone(), pattern: pattern(), view: StainView::Normal };
+    let view = StainView::Normal;
+    let extension = StainExtension { part, shading: shading.clone(), pattern: pattern(), view, ..default() };
     let material = StainedMaterial { base: base_material(), extension };
     spawn_stained(&mut studio.app, stained_plate(1.2, 120, |_| [0.0, 0.0, 0.0, 1.0]), material);
     let picture = studio.shoot(Vec3::Z * 0.2, Vec3::ZERO);

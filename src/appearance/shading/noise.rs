@@ -24,6 +24,9 @@ pub(super) struct Grain {
 }
 
 impl Grain {
+    /// Value everywhere of a pattern of which nothing can be seen.
+    pub const EVEN: Self = Self { value: 0.5, kept: 0.0 };
+
     /// Returns the share of this place, 0 to 1, that a stain of `amount` (0 to 1) covers. The grains with the highest
     /// values are covered first, with edges of the given softness. The mean over the pattern is `amount`, and so is
     /// every place where grains are too small to be seen.
@@ -47,13 +50,20 @@ pub(super) fn grain(octaves: [Octave; 3], footprint: f32, place: impl Fn(f32) ->
     let (mut sum, mut kept, mut all) = (0.0, 0.0, 0.0);
     for (i, (size, weight)) in octaves.into_iter().enumerate() {
         let seen = weight * (1.0 - smoothstep(0.35, 1.0, footprint / size));
-        // Octaves on a common grid would line up.
-        sum += seen * noise(place(size) + Vec3::splat(19.37 * i as f32));
-        kept += seen * seen;
+        if seen > 0.0 {
+            // Octaves on a common grid would line up.
+            sum += seen * noise(place(size) + Vec3::splat(19.37 * i as f32));
+            kept += seen * seen;
+        }
         all += weight * weight;
     }
     let deviations = sum / (DEVIATION * all.sqrt());
     Grain { value: 1.0 / (1.0 + ops::exp(-LOGISTIC * deviations)), kept: kept / all }
+}
+
+/// Returns whether grains of all octaves are smaller than `footprint`, so that nothing of the pattern can be seen.
+pub(super) fn is_too_fine(octaves: [Octave; 3], footprint: f32) -> bool {
+    octaves.iter().all(|&(size, _)| footprint >= size)
 }
 
 /// Returns gradient noise at `p`: smooth, with mean 0, mostly within -0.4 to 0.4, and grains of about one unit.

@@ -6,7 +6,7 @@ use std::f32::consts::FRAC_PI_4;
 
 use bevy_math::{Vec3, ops};
 
-use super::noise::{Grain, Octave, grain, hash, mix, smoothstep};
+use super::noise::{Grain, Octave, grain, hash, is_too_fine, mix, smoothstep};
 
 /// Placement of a prop's stain patterns: the direction of streaks, an offset, and the size of the finest detail.
 ///
@@ -72,6 +72,9 @@ impl StainPattern {
     ///
     /// `normal` is the normal of the surface. If it is zero (not known) grains are long on upright surfaces only.
     pub(super) fn streak(&self, rest: Vec3, normal: Vec3, octaves: [Octave; 3], stretch: f32) -> Grain {
+        if is_too_fine(octaves, self.footprint) {
+            return Grain::EVEN;
+        }
         let p = rest + self.offset;
         let down = self.streaks;
         let outwards = normal - down * down.dot(normal);

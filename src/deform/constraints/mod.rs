@@ -6,13 +6,14 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+mod digest;
 mod validate;
 
 use super::{
     bend::{BendConstraint, bend_points},
     ledger::Ledger,
     length::LengthConstraint,
-    pace::SolverQuality,
+    pace::{Narrowing, SolverQuality},
     packed::{
         constraints::PackedConstraints,
         level::SimdLevel,
@@ -57,7 +58,7 @@ use crate::{
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component))]
+#[cfg_attr(feature = "plugin", derive(bevy::ecs::component::Component), component(clone_behavior = Ignore))]
 pub struct FilmConstraints {
     ledger: Ledger,
     packed: PackedConstraints,
@@ -220,9 +221,9 @@ impl FilmConstraints {
         self.packed.restart_narrowing();
     }
 
-    /// Narrows all targets by `step` down to `limit` below where they began, in radians.
-    pub(super) fn narrow(&mut self, level: SimdLevel, step: f32, limit: f32) {
-        self.packed.narrow(level, step, limit);
+    /// Narrows all targets.
+    pub(super) fn narrow(&mut self, level: SimdLevel, by: Narrowing) {
+        self.packed.narrow(level, by);
     }
 
     /// Sweeps over the film with the plain solver.
@@ -239,10 +240,10 @@ impl FilmConstraints {
         self.packed.solve(&mut mesh.geometry, level, sweeps, momentum);
     }
 
-    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `limit`
-    /// is how far targets narrow, in radians.
-    pub(super) fn tick(&mut self, mesh: &FilmMesh, loose: &LoosePieces, limit: f32) {
-        self.sleep.tick(&mut self.packed, &mut self.ledger, mesh, loose, limit);
+    /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `by` is
+    /// how targets narrow.
+    pub(super) fn tick(&mut self, mesh: &FilmMesh, loose: &LoosePieces, by: Narrowing) {
+        self.sleep.tick(&mut self.packed, &mut self.ledger, mesh, loose, by);
     }
 
     /// Returns the points of the packed solver.

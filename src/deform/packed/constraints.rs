@@ -11,8 +11,9 @@ use crate::{
     deform::{
         bend::{BendConstraint, bend_points, shape_at_rest},
         ledger::Ledger,
+        pace::Narrowing,
     },
-    film::{FilmMesh, Geometry, HalfEdgeId, Topology, VertexId},
+    film::{FilmMesh, Geometry, HalfEdgeId, Topology, VertexId, words::Words},
 };
 
 /// Constraints of a film as the packed solver sees them. Which there are, and in which lane each lies, is in the
@@ -96,12 +97,12 @@ impl PackedConstraints {
         Some(bend)
     }
 
-    /// Returns whether the bend that `h` carries is in a pack and has not reached its last target yet, which is `limit`
-    /// below where it began (radians).
-    pub fn is_narrowing(&self, ledger: &Ledger, topology: &Topology, h: HalfEdgeId, limit: f32) -> bool {
+    /// Returns whether a step of narrowing changes the target of the bend that `h` carries, which is in a pack.
+    pub fn is_narrowing(&self, ledger: &Ledger, topology: &Topology, h: HalfEdgeId, by: Narrowing) -> bool {
         ledger.bends().lane(h).is_some_and(|lane| {
             let bend = self.bend_in(topology, h, lane);
-            bend.target > bend.start - limit
+            // A step that rounding swallows, like one of 0, leads nowhere.
+            bend.target > bend.start - by.limit && bend.target - by.step < bend.target
         })
     }
 
@@ -256,10 +257,10 @@ impl PackedConstraints {
         (self.spare_bends, self.spare_lengths) = (bends, lengths);
     }
 
-    /// Narrows all targets by `step` down to `limit` below where they began, in radians.
-    pub fn narrow(&mut self, level: SimdLevel, step: f32, limit: f32) {
+    /// Narrows all targets.
+    pub fn narrow(&mut self, level: SimdLevel, by: Narrowing) {
         for region in &mut self.regions {
-            region.narrow(level, step, limit);
+            region.narrow(level, by.step, by.limit);
         }
     }
 
@@ -324,6 +325,15 @@ impl PackedConstraints {
     pub fn sweep_lengths(&mut self, level: SimdLevel) {
         let kernels = Kernels::of(level);
         self.regions.iter().for_each(|region| region.sweep_lengths(&mut self.points, &kernels));
+    }
+
+    /// Appends all that decides what a solve does.
+    pub fn write_state(&self, to: &mut Words) {
+        // Buffers are empty, or mean nothing, between steps.
+        let Self { points, regions, outdated, blocked: _, spare_bends: _, spare_lengths: _ } = self;
+        points.write_state(to);
+        regions.iter().for_each(|region| region.write_state(to));
+        to.word(u32::from(*outdated));
     }
 
     /// Returns what `v` does.

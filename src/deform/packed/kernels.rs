@@ -67,9 +67,24 @@ fn offsets_at(offsets: &PerLane<PointOffset>, at: usize) -> *const PointOffset {
     offsets.as_ptr().wrapping_add(at)
 }
 
+/// Returns the values from lane `at` on.
+#[inline(always)]
+fn lanes_at(values: &PerLane<f32>, at: usize) -> *const f32 {
+    values.as_ptr().wrapping_add(at)
+}
+
 /// Least square of the length of the sum of two unit normals. A smaller one is that of a fully folded pair, which has
 /// no neutral direction.
 const MIN_NEUTRAL_SQUARED: f32 = 1e-12;
+
+/// Least square of the length of `m` (see [`sweep_bends`]). Below, its reciprocal times what it is multiplied by may
+/// leave the range of floats, and squares that it is made of may have vanished. Triangles of ordinary shape are far
+/// above: in units of the mean edge it is about 4.
+const LEAST_SQUARE: f32 = 1e-36;
+
+/// Largest sum of the squares of an edge and its two medians, in units of the mean edge, for which nothing overflows:
+/// with lengths below `l`, no product below exceeds `4 l^10`.
+const LARGEST_PAIR: f32 = 1e7;
 
 /// Number of packs that are read forward, as memory is read best, before the run in front of them.
 const RUN: usize = 8;
@@ -83,6 +98,9 @@ const RUN: usize = 8;
 /// the printed correction. Its strain `1 - sqrt(1 + k_i) sqrt(y_i / (y_i - z_i))` is replaced by the rational
 /// `-(z_i + k_i y_i) / ((2 + k_i) y_i - z_i)`, which has the same zero and the same slope there and stays bounded.
 /// Corrections are shared as in [`bend_corrections`](crate::deform::bend::bend_corrections).
+///
+/// Finite points stay finite. Pairs that are too thin or too large for the range of floats are left alone, and the
+/// strain, which is never beyond -1 to 1, is taken for noise if it comes out beyond -2 to 2.
 ///
 /// The packs begun last, where the film came off last, are solved first: then flakes lift as they do with constraints
 /// solved in the order of the mesh; the other way round they lag by some percent.
@@ -115,15 +133,18 @@ unsafe fn bend<L: Lanes>(points: *mut Point, pack: &BendPack, at: usize) {
         let m = c3.scale(n4).add(c4.scale(n3));
         let (mm, d) = (m.dot(m), a3.dot(c4));
         let total = w1.add(w2).add(w3).add(w4);
+        let (median3, median4) = (a3.dot(a3), a4.dot(a4));
+        let bounded = L::splat(LARGEST_PAIR).gt(edge.dot(edge).add(median3).add(median4));
         // A face without area has no normal, a fully folded pair no neutral direction. Comparisons with NaN fail too.
         let areas = areas3.mul(areas4);
-        let valid = L::and(mm.gt(areas.mul(L::splat(MIN_NEUTRAL_SQUARED))), L::and(areas.gt(zero), total.gt(zero)));
+        let wide = L::and(mm.gt(areas.mul(L::splat(MIN_NEUTRAL_SQUARED))), mm.gt(L::splat(LEAST_SQUARE)));
+        let valid = L::and(wide, L::and(areas.gt(zero), L::and(total.gt(zero), bounded)));
         let reciprocal = one.div(mm).keep(valid);
-        let shared = Pair { m, mm, d, reciprocal, valid };
-        let b3 =
-            shared.wing(a3, n3, pack.folds[0].as_ptr().wrapping_add(at), pack.medians[0].as_ptr().wrapping_add(at));
-        let b4 =
-            shared.wing(a4, n4, pack.folds[1].as_ptr().wrapping_add(at), pack.medians[1].as_ptr().wrapping_add(at));
+        let shared = Pair { m, mm, d, reciprocal, valid, bounded };
+        let [fold3, fold4] = &pack.folds;
+        let [rest3, rest4] = &pack.medians;
+        let b3 = shared.wing(a3, median3, n3, lanes_at(fold3, at), lanes_at(rest3, at));
+        let b4 = shared.wing(a4, median4, n4, lanes_at(fold4, at), lanes_at(rest4, at));
         let (without3, without4) = (total.sub(w3), total.sub(w4));
         let both = without3.add(without4);
         let share = one.div(total.mul(both)).keep(valid);
@@ -145,17 +166,19 @@ struct Pair<L: Lanes> {
     mm: L,
     d: L,
     reciprocal: L,
+    /// Lanes whose pair has a neutral direction and anything free.
     valid: L::Mask,
+    /// Lanes in which nothing overflows.
+    bounded: L::Mask,
 }
 
 impl<L: Lanes> Pair<L> {
-    /// Returns `-u q` of the wing with median `a` and length of normal `n`. (A method, as a closure might not be
+    /// Returns `-u q` of the wing with median `a` of the square length `median` and length of normal `n`. (A method, as a closure might not be
     /// inlined, and then every instruction would be a call.)
     #[inline(always)]
-    unsafe fn wing(self, a: Vec3<L>, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
+    unsafe fn wing(self, a: Vec3<L>, median: L, n: L, fold: *const f32, rest: *const f32) -> Vec3<L> {
         unsafe {
             let (fold, rest, one) = (L::load(fold), L::load(rest), L::splat(1.0));
-            let median = a.dot(a);
             let (y, z) = (median.mul(self.mm).sqrt(), n.mul(self.d));
             let q = a.sub(self.m.scale(y.mul(self.reciprocal)));
             let rest_cosine = fold.mul(y);
@@ -166,13 +189,19 @@ impl<L: Lanes> Pair<L> {
             let stretched = median.gt(rest);
             let over = over.mul(L::select(stretched, rest, one));
             let under = under.mul(L::select(stretched, median, one));
-            let strain = over.div(under).keep(L::and(self.valid, under.gt(L::splat(0.0))));
-            q.scale(strain)
+            // Where all is right the strain is at most 1; squares that vanish may make it anything. Both hold only where
+            // `under` is above 0.
+            let twice = under.add(under);
+            let sound = L::and(twice.gt(over), twice.gt(L::splat(0.0).sub(over)));
+            let strain = over.div(under).keep(L::and(self.valid, sound));
+            // Where it is not bounded, `q` may be infinite, and 0 times infinity is no number.
+            q.scale(strain).keep(self.bounded)
         }
     }
 }
 
-/// Projects every length constraint in turn (VC 4.2).
+/// Projects every length constraint in turn (VC 4.2). Finite points stay finite: those too far apart for the range of
+/// floats are left alone.
 #[inline(always)]
 pub(super) unsafe fn sweep_lengths<L: Lanes>(points: *mut Point, packs: &[LengthPack]) {
     for pack in packs.rchunks(RUN).flatten() {
@@ -193,9 +222,13 @@ unsafe fn length<L: Lanes>(points: *mut Point, pack: &LengthPack, at: usize) {
         let difference = p1.sub(p2);
         let length = difference.dot(difference).sqrt();
         let under = w1.add(w2).mul(length);
-        let zero = L::splat(0.0);
+        let (zero, infinity) = (L::splat(0.0), L::splat(f32::INFINITY));
         let valid = under.gt(zero);
-        let correction = difference.scale(length.sub(rest).div(under).keep(valid));
+        // The square of a huge difference is infinite, and the quotient is where a tiny one is to become long at once.
+        let quotient = length.sub(rest).div(under);
+        let bounded = infinity.gt(length);
+        let finite = L::and(valid, quotient.gt(L::splat(f32::NEG_INFINITY)));
+        let correction = difference.scale(quotient.keep(finite)).keep(bounded);
         let (free1, free2) = (w1.gt(zero), w2.gt(zero));
         L::scatter(points, offsets[0], join(p1.sub(correction.keep(free1)), w1));
         L::scatter(points, offsets[1], join(p2.add(correction.keep(free2)), w2));

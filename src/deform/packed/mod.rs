@@ -36,4 +36,4 @@ mod slots;
 
 #[cfg(test)]
 #[allow(clippy::undocumented_unsafe_blocks, reason = "every block needs the same, which the module says once")]
-mod tests;
+pub mod tests;

@@ -1,12 +1,13 @@
 //! The points of a film in the packed solver: where they are, and which of them move.
 
-use bevy_math::Vec3;
+use bevy_math::{Vec3, Vec4};
 
 use super::{
     layout::Layout,
     level::Kernels,
     point::{Point, PointOffset},
 };
+use crate::film::words::Words;
 
 /// Stands where there is no vertex.
 const NO_VERTEX: u32 = u32::MAX;
@@ -298,6 +299,23 @@ impl Points {
         unsafe { (kernels.project)(self.now.as_mut_ptr(), self.planes.as_ptr(), &self.awake[region].offsets) }
     }
 
+    /// Appends all that decides where points go.
+    pub fn write_state(&self, to: &mut Words) {
+        // Planes follow from the film at rest, and the number of sleepers from the motions.
+        let Self { unit, offsets, vertices, room, now, before, planes: _, motions, region_of, awake, asleep: _ } = self;
+        to.float(*unit);
+        to.list(offsets.iter().map(|offset| offset.index() as u32));
+        to.list(vertices.iter().copied());
+        to.list(room.as_flattened().iter().copied());
+        to.fours(now.iter().map(|point| Vec4::from_array(point.0)));
+        to.fours(before.iter().map(|point| Vec4::from_array(point.0)));
+        to.list(motions.iter().map(|&motion| motion as u32));
+        to.list(region_of.iter().map(|&region| u32::from(region)));
+        for awake in awake {
+            to.list(awake.offsets.iter().take(awake.count).map(|offset| offset.index() as u32));
+        }
+    }
+
     /// Returns the points, for the sweeps.
     pub fn now_mut(&mut self) -> &mut [Point] {
         &mut self.now
@@ -306,4 +324,28 @@ impl Points {
 
 fn xyz(Point([x, y, z, _]): Point) -> Vec3 {
     Vec3::new(x, y, z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_points_counts() {
+        let rest = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let points = Points::new(&rest, &[Vec3::Z; 3], 1.0, &Layout::new(&rest));
+        let changes: [fn(&mut Points); 9] = [
+            |points| points.unit = 2.0,
+            |points| points.offsets.swap(0, 1),
+            |points| points.vertices.swap(1, 2),
+            |points| points.room[0][0] += 1,
+            |points| points.now[1].0[2] = 0.5,
+            |points| points.before[1].0[2] = 0.5,
+            |points| points.motions[0] = Motion::Asleep,
+            |points| points.region_of[0] = 1,
+            |points| points.awake[0].push(PointOffset::new(2)),
+        ];
+        assert_each_counts(&points, Points::write_state, &changes);
+    }
 }

@@ -7,6 +7,7 @@ use super::{
     points::{Motion, Points},
     slots::{Blocked, Slots},
 };
+use crate::film::words::Words;
 
 /// Bend constraint, as a lane holds it. Lengths are in the points' unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,6 +195,25 @@ impl Region {
         unsafe { (kernels.sweep_lengths)(points.now_mut().as_mut_ptr(), &self.lengths) }
     }
 
+    /// Appends all packs, in the order in which they are solved.
+    pub fn write_state(&self, to: &mut Words) {
+        let Self { bends, targets, narrowing, bend_slots, lengths, length_slots } = self;
+        for BendPack { points, folds, medians } in bends {
+            to.list(points.as_flattened().iter().map(|offset| offset.index() as u32));
+            to.floats(folds.as_flattened().iter().chain(medians.as_flattened()));
+        }
+        for BendTargets { skews, starts, targets } in targets {
+            to.floats(skews.as_flattened().iter().chain(starts).chain(targets));
+        }
+        to.flags(narrowing);
+        for LengthPack { points, rest } in lengths {
+            to.list(points.as_flattened().iter().map(|offset| offset.index() as u32));
+            to.floats(rest);
+        }
+        bend_slots.write_state(to);
+        length_slots.write_state(to);
+    }
+
     /// Returns the pack of bends to be given up, if bends fill too few lanes.
     pub fn sparse_bends(&self) -> Option<usize> {
         sparse(&self.bend_slots)
@@ -269,4 +289,34 @@ fn sparse(slots: &Slots) -> Option<usize> {
 /// Returns the pack and the slot of a lane.
 fn split(lane: u32) -> (usize, usize) {
     (lane as usize / LANES, lane as usize % LANES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_packs_counts() {
+        let mut region = Region::default();
+        let (points, mut blocked) = (Points::default(), Blocked::default());
+        blocked.next();
+        let bend = BendLane { vertices: [0, 1, 2, 3], skews: [0.9; 2], medians: [0.8; 2], start: 3.0, target: 3.0 };
+        region.add_bend(1, &bend, &blocked, &points);
+        region.add_length(2, &LengthLane { vertices: [0, 1], rest: 1.0 }, &blocked, &points);
+        let changes: [fn(&mut Region); 11] = [
+            |region| region.bends[0].points[2][0] = PointOffset::new(1),
+            |region| region.bends[0].folds[1][0] = 0.5,
+            |region| region.bends[0].medians[1][0] = 0.5,
+            |region| region.targets[0].skews[1][0] = 0.5,
+            |region| region.targets[0].starts[0] = 0.5,
+            |region| region.targets[0].targets[0] = 0.5,
+            |region| region.narrowing[0] = false,
+            |region| region.lengths[0].points[1][0] = PointOffset::new(1),
+            |region| region.lengths[0].rest[0] = 0.5,
+            |region| region.bend_slots = Slots::default(),
+            |region| region.length_slots.release(0),
+        ];
+        assert_each_counts(&region, Region::write_state, &changes);
+    }
 }

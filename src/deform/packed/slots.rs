@@ -1,6 +1,7 @@
 //! Which lane of which pack holds which constraint.
 
 use super::pack::{LANES, PerLane};
+use crate::film::words::Words;
 
 /// Number of packs that are tried for a constraint before a new one is begun. A constraint has some thirty neighbours,
 /// each of which blocks one pack at most, so this rarely fails while there is room.
@@ -137,6 +138,14 @@ impl Slots {
                 Some(word * 64 + bit)
             })
         })
+    }
+
+    /// Appends which lane has which owner.
+    pub fn write_state(&self, to: &mut Words) {
+        // The rest follows.
+        let Self { owners: _, used, open: _, live: _ } = self;
+        to.list(used.iter().copied());
+        to.list((0..self.packs()).flat_map(|pack| self.owners(pack)).map(|(_, owner)| owner));
     }
 
     /// Returns whether `lane` is used.

@@ -13,6 +13,7 @@ use bevy::{
         query::{Or, With},
         reflect::ReflectComponent,
         system::{Commands, Query, Res, ResMut},
+        world::EntityWorldMut,
     },
     pbr::{MeshMaterial3d, StandardMaterial},
     reflect::prelude::*,
@@ -71,7 +72,8 @@ pub(in crate::display) fn dress_props(
         let worn = worn.map_or_else(
             || {
                 let (shading, pattern) = (display.paint.shading.clone(), display.paint.pattern);
-                let extension = StainExtension { part: StainPart::Film, shading, pattern, view: StainView::Lit };
+                let extension =
+                    StainExtension { part: StainPart::Film, shading, pattern, view: StainView::Lit, alpha_only: false };
                 stained.add(StainedMaterial { base: base.clone(), extension })
             },
             |worn| worn.0.clone(),
@@ -83,6 +85,16 @@ pub(in crate::display) fn dress_props(
             .entity(entity)
             .try_remove::<MeshMaterial3d<StandardMaterial>>()
             .try_insert((MeshMaterial3d(worn), CoatedMaterial(handle.clone())));
+    }
+}
+
+/// Gives a clone of a dressed entity its own material back, as the stained one is the original's.
+pub(crate) fn undress(entity: &mut EntityWorldMut) {
+    entity.remove::<MeshMaterial3d<StainedMaterial>>();
+    if let Some(CoatedMaterial(own)) = entity.take::<CoatedMaterial>()
+        && !entity.contains::<MeshMaterial3d<StandardMaterial>>()
+    {
+        entity.insert(MeshMaterial3d(own));
     }
 }
 

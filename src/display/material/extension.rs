@@ -55,11 +55,14 @@ pub struct StainExtension {
     pub pattern: StainPattern,
     /// Quantity that is drawn. Default: [`StainView::Lit`].
     pub view: StainView,
+    /// Whether only the alpha counts of the standard material's base colour texture and of vertex colours, as for backs
+    /// and metal under paint with an alpha mask. Default false.
+    pub alpha_only: bool,
 }
 
 impl From<&StainExtension> for StainUniform {
     fn from(from: &StainExtension) -> Self {
-        Self::new(from.view, &from.shading, &from.pattern)
+        Self::new(from.view, from.alpha_only, &from.shading, &from.pattern)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use bevy::{
     asset::{AssetEvent, Assets},
-    color::{Color, ColorToComponents, LinearRgba},
     ecs::{
         change_detection::{DetectChanges, DetectChangesMut, Ref},
         message::MessageReader,
@@ -13,7 +12,7 @@ use bevy::{
 };
 
 use super::{dress::CoatedMaterial, extension::StainedMaterial};
-use crate::{api::links::FilmSource, appearance::shading::StainPart, display::film_display::FilmDisplay};
+use crate::{api::links::FilmSource, display::film_display::FilmDisplay};
 
 /// Copies the prop's own materials that were loaded, edited or swapped to the stained ones.
 pub(in crate::display) fn follow_standard_materials(
@@ -42,7 +41,7 @@ pub(in crate::display) fn follow_standard_materials(
     }
 }
 
-/// Hands changed shadings and directions of streaks to all materials of a film.
+/// Hands changed shadings and directions of streaks to the materials of a film's fronts.
 pub(in crate::display) fn follow_paint(
     mut films: Query<(&FilmSource, &mut FilmDisplay)>,
     props: Query<&MeshMaterial3d<StainedMaterial>>,
@@ -54,19 +53,12 @@ pub(in crate::display) fn follow_paint(
         }
         let display = display.bypass_change_detection();
         display.materials_outdated = false;
-        let fronts = source.slots.iter().filter_map(|&slot| props.get(slot).ok()).map(|worn| &worn.0);
-        for handle in fronts.chain(display.parts.stained()) {
-            let Some(mut material) = stained.get_mut(handle) else { continue };
+        for worn in source.slots.iter().filter_map(|&slot| props.get(slot).ok()) {
+            let Some(mut material) = stained.get_mut(&worn.0) else { continue };
             let paint = &display.paint;
             if material.extension.shading != paint.shading || material.extension.pattern != paint.pattern {
                 material.extension.shading = paint.shading.clone();
                 material.extension.pattern = paint.pattern;
-            }
-            if material.extension.part == StainPart::Back {
-                let primer = Color::LinearRgba(LinearRgba::from_vec3(paint.shading.primer.color));
-                if material.base.base_color != primer {
-                    material.base.base_color = primer;
-                }
             }
         }
     }

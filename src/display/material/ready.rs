@@ -1,32 +1,44 @@
 //! Checks the material of a mesh before it is coated.
 
 use bevy::{
-    asset::Assets,
+    asset::{AssetId, Assets},
     ecs::world::{EntityRef, World},
     pbr::{MeshMaterial3d, StandardMaterial},
     prelude::AlphaMode,
 };
 
 use super::dress::CoatedMaterial;
-use crate::api::{assets::loaded, error::CoatingFault};
+use crate::api::{
+    assets::{Waited, loaded},
+    error::CoatingFault,
+};
 
-/// Returns whether the material of `entity` has loaded, and refuses blended materials. Meshes without a standard
-/// material are ready.
+/// Returns the prop's own standard material on `entity`.
+pub(crate) fn material_of(entity: EntityRef) -> Option<AssetId<StandardMaterial>> {
+    let own = entity.get::<MeshMaterial3d<StandardMaterial>>().map(|own| own.0.id());
+    own.or(entity.get::<CoatedMaterial>().map(|own| own.0.id()))
+}
+
+/// Returns why one looks through the mesh of `entity`: [`CoatingFault::AlphaBlended`] or [`CoatingFault::Transmissive`].
+/// `Some(None)` for meshes that are opaque or have no standard material, `None` while the material is being loaded.
 ///
 /// # Errors
-/// [`CoatingFault::AlphaBlended`], or [`CoatingFault::MaterialNotLoaded`] if loading failed.
-pub(crate) fn is_material_ready(world: &World, entity: EntityRef) -> Result<bool, CoatingFault> {
-    // The film of the entity was taken off in this frame; it gets its own material back at the frame's end.
-    if entity.contains::<CoatedMaterial>() {
-        return Ok(false);
-    }
-    let Some(MeshMaterial3d(handle)) = entity.get::<MeshMaterial3d<StandardMaterial>>() else { return Ok(true) };
+/// [`CoatingFault::MaterialNotLoaded`] if loading failed.
+pub(crate) fn transparency_of(world: &World, entity: EntityRef) -> Waited<Option<CoatingFault>> {
+    let worn = entity.contains::<CoatedMaterial>();
+    let Some(MeshMaterial3d(handle)) = entity.get::<MeshMaterial3d<StandardMaterial>>() else {
+        // The film of an entity with a stained material was taken off in this frame: it gets its own back at its end.
+        return Ok((!worn).then_some(None));
+    };
     if !world.contains_resource::<Assets<StandardMaterial>>() {
-        return Ok(true);
+        return Ok(Some(None));
     }
-    let Some(material) = loaded(world, handle, CoatingFault::MaterialNotLoaded)? else { return Ok(false) };
-    match material.alpha_mode {
-        AlphaMode::Opaque | AlphaMode::Mask(_) | AlphaMode::AlphaToCoverage => Ok(true),
-        _ => Err(CoatingFault::AlphaBlended),
-    }
+    let Some(material) = loaded(world, handle, CoatingFault::MaterialNotLoaded)? else { return Ok(None) };
+    Ok(Some(match material.alpha_mode {
+        AlphaMode::Opaque | AlphaMode::Mask(_) | AlphaMode::AlphaToCoverage if material.specular_transmission > 0.0 => {
+            Some(CoatingFault::Transmissive)
+        }
+        AlphaMode::Opaque | AlphaMode::Mask(_) | AlphaMode::AlphaToCoverage => None,
+        _ => Some(CoatingFault::AlphaBlended),
+    }))
 }

@@ -29,6 +29,7 @@ struct StainUniform {
     creep: f32,
     patch_size: f32,
     view: u32,
+    alpha_only: u32,
 }
 
 // Material inputs at one place. Bevy's materials have a reflectance for each channel. `slope` is the slope of the

@@ -31,11 +31,12 @@ pub struct StainUniform {
     creep: f32,
     patch_size: f32,
     view: u32,
+    alpha_only: u32,
 }
 
 impl StainUniform {
     /// Returns the uniform of a part with this shading.
-    pub(super) fn new(view: StainView, shading: &FilmShading, pattern: &StainPattern) -> Self {
+    pub(super) fn new(view: StainView, alpha_only: bool, shading: &FilmShading, pattern: &StainPattern) -> Self {
         // The shader divides by sizes, so a size of 0 would give NaN.
         let size = |size: f32| size.max(1e-5);
         Self {
@@ -62,6 +63,7 @@ impl StainUniform {
             creep: shading.stains.creep,
             patch_size: size(shading.metal.patch_size),
             view: view as u32,
+            alpha_only: u32::from(alpha_only),
         }
     }
 }

@@ -3,6 +3,7 @@
 #import bevy_coating::shading::{StainSample, StainUniform, SurfaceShading, stained}
 #import bevy_pbr::{
     mesh_functions,
+    pbr_bindings,
     pbr_types,
     pbr_functions::alpha_discard,
     pbr_fragment::pbr_input_from_standard_material,
@@ -177,6 +178,9 @@ fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_fro
     );
     var base: SurfaceShading;
     base.base_color = pbr.material.base_color.rgb;
+    if stain.alpha_only != 0u {
+        base.base_color = pbr_bindings::material.base_color.rgb;
+    }
     base.metallic = pbr.material.metallic;
     base.roughness = pbr.material.perceptual_roughness;
     base.reflectance = pbr.material.reflectance;

@@ -13,12 +13,10 @@ impl LoosePieces {
     /// `is_attached` says whether a vertex is attached to the metal. The time is proportional to the size of the film.
     ///
     /// ```
-    /// use bevy_coating::film::{HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId};
-    ///
-    /// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
-    /// topology.tear(HalfEdgeId(2), |_, _, _| true);
+    /// use bevy_coating::film::{LoosePieces, PieceScratch, Topology, VertexId};
     ///
     /// // Only vertex 3 is attached: the face without it is loose.
+    /// let topology = Topology::from_triangles(6, &[[0, 1, 2], [3, 4, 5]])?;
     /// let mut loose = LoosePieces::default();
     /// let pieces = loose.find(&topology, &mut PieceScratch::default(), |v| v == VertexId(3));
     /// assert_eq!((pieces, loose.len(), loose.smallest()), (2, 1, Some(1)));

@@ -20,15 +20,16 @@ const NONE: u32 = u32::MAX;
 /// its faces form one fan.
 ///
 /// ```
-/// use bevy_coating::film::{FilmPieces, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId};
+/// use bevy_coating::film::{FilmPieces, LoosePieces, PieceScratch, Topology, VertexId};
 ///
-/// let mut topology = Topology::from_triangles(4, &[[0, 1, 2], [0, 2, 3]])?;
+/// let topology = Topology::from_triangles(6, &[[0, 1, 2], [3, 4, 5]])?;
 /// let is_attached = |v| v == VertexId(3);
 /// let (mut loose, mut scratch) = (LoosePieces::default(), PieceScratch::default());
-/// let mut pieces = FilmPieces::new(&topology, is_attached);
+/// let mut pieces = FilmPieces::new(&topology, |v| v.0 < 4);
 ///
-/// let ends = topology.tear(HalfEdgeId(2), |_, _, _| true).unwrap();
-/// pieces.edge_torn(&topology, HalfEdgeId(2), &ends, &mut scratch, is_attached);
+/// for v in [VertexId(0), VertexId(1), VertexId(2)] {
+///     pieces.vertex_separated(&topology, v);
+/// }
 /// pieces.renew(&topology, &mut loose, &mut scratch);
 /// assert_eq!(loose.len(), 1);
 /// assert!(pieces.agrees(&topology, &loose, is_attached));

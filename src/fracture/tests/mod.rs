@@ -1,5 +1,6 @@
 //! Tests each equation and rule of the fracture stages against an independent derivation.
 
+mod follow;
 mod predictions;
 
 use core::f32::consts::PI;
@@ -79,8 +80,9 @@ struct Tearing {
 
 impl Tearing {
     fn on(mesh: FilmMesh) -> Self {
-        let settings = CoatingSettings::default();
-        let mut forces = uniform_forces(&mesh, &settings);
+        let mut settings = CoatingSettings::default();
+        settings.tearing.weak_probability = 0.0;
+        let mut forces = FilmForces::new(&mesh, &settings, 0);
         separate_all(&mut forces);
         Self { mesh, forces, settings, changes: FilmChanges::default() }
     }
@@ -168,6 +170,7 @@ fn adhesion_falls_at_its_rate_and_stops_at_zero() {
 fn a_vertex_separates_once_at_the_age_of_the_closed_form() {
     let mesh = lattice(8);
     let mut settings = CoatingSettings::default();
+    settings.tearing.weak_probability = 0.0;
     for (adhesion, decay, growth) in
         [(2.1, 1.0, 1.0), (1.0, 0.5, 0.0), (3.0, 1.5, 2.0), (0.5, 1.0, 1.0), (2.5, 0.0, 2.0)]
     {

@@ -68,7 +68,7 @@ fn any_film() -> impl Strategy<Value = FilmMesh> {
 /// Sets one of the settings that fracture depends on.
 fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
     let tearing = &mut settings.tearing;
-    let (setting, max) = match which % 11 {
+    let (setting, max) = match which % 17 {
         0 => (&mut settings.adhesion.decay, 3.0),
         1 => (&mut settings.bending.gain, 0.6),
         2 => (&mut settings.bending.gamma, 6.0),
@@ -82,6 +82,12 @@ fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
             settings.stripping.fall_faces = (share * 20.0) as u32;
             return;
         }
+        10 => (&mut settings.adhesion.mean, 3.0),
+        11 => (&mut settings.adhesion.deviation, 2.0),
+        12 => (&mut tearing.contraction, 2.0),
+        13 => (&mut tearing.binding, 8.0),
+        14 => (&mut tearing.weak_probability, 0.3),
+        15 => (&mut tearing.weak_factor, 1.0),
         // Back to the start, so that settings do not stay extreme.
         _ => {
             *settings = CoatingSettings::default();

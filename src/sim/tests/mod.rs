@@ -1,6 +1,9 @@
 //! Tests whole runs: invariants at every step, determinism, independence of the step size, and figures within their
 //! bands.
 
+mod edits;
+mod needles;
+mod settings;
 mod solvers;
 mod stains;
 
@@ -65,20 +68,33 @@ fn the_same_seed_gives_the_same_bits_and_another_does_not() {
     assert_ne!(run(4), run(5));
 }
 
+/// Which edge tears first decides how a crack runs on, so single films with other steps differ: at age 1 by up to 0.013 of
+/// their edges torn (of 0.06 to 0.2) and 0.010 of their faces come off. Means over eight seeds differ by up to 0.002 of
+/// the vertices separated, by 6 % of the torn edges at age 0.5 and 1.5 % at age 1, and by 5 % of the faces come off.
 #[test]
 fn fracture_does_not_depend_on_the_number_of_steps() {
     let settings = quick();
-    let share = |steps| {
-        let mut film = plate(1000, 2, &settings, steps);
-        [0.2, 0.5, 1.0].map(|age| {
-            film.age_to(age, &settings, &Environment::default());
-            film.measure().separated.unwrap()
-        })
+    let seeds = 1..=8;
+    let means = |steps| {
+        let mut sums = [0.0; 5];
+        for seed in seeds.clone() {
+            let mut film = plate(1000, seed, &settings, steps);
+            film.age_to(0.5, &settings, &Environment::default());
+            let half = film.measure();
+            film.age_to(1.0, &settings, &Environment::default());
+            let end = film.measure();
+            let off = end.stripped.unwrap() + end.fallen.unwrap();
+            let row = [half.separated, half.torn, end.separated, end.torn, Some(off)];
+            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += value.unwrap());
+        }
+        sums.map(|sum| sum / seeds.clone().count() as f64)
     };
-    let reference = share(1000);
+    let reference = means(1000);
+    let allowed = [0.01, 0.1, 0.01, 0.03, 0.08];
     for steps in [250, 4000] {
-        for (a, b) in share(steps).into_iter().zip(reference) {
-            assert!((a - b).abs() < 0.03, "{steps} steps: {a} for {b}");
+        for (i, (found, expected)) in means(steps).into_iter().zip(reference).enumerate() {
+            let apart = (found / expected - 1.0).abs();
+            assert!(apart < allowed[i], "figure {i} of {steps} steps: {found} for {expected}");
         }
     }
 }
@@ -133,13 +149,17 @@ fn without_weak_edges_nothing_tears() {
 #[test]
 fn flakes_curl_outwards_as_far_as_in_the_reference() {
     // In the prototype 10,000 plain sweeps an age lifted flakes by 2.09 mean edges at age 1, on another mesh. Here the
-    // lift is to agree within a third.
+    // lift is to agree within a third: 1.47 as a mean over six seeds, which lift by 1.28 to 1.67.
     let settings = CoatingSettings::default();
-    let mut film = plate(1000, 3, &settings, 500);
-    film.age_to(1.0, &settings, &Environment::default());
-    let m = film.measure();
-    assert!((1.2..2.8).contains(&m.lift_p90.unwrap()), "{m:?}");
-    assert!((0.005..0.04).contains(&m.strain_rms.unwrap()), "{m:?}");
+    let films = (1..=6).map(|seed| {
+        let mut film = plate(1000, seed, &settings, 500);
+        film.age_to(1.0, &settings, &Environment::default());
+        film.measure()
+    });
+    let (lifts, strains): (Vec<f64>, Vec<f64>) = films.map(|m| (m.lift_p90.unwrap(), m.strain_rms.unwrap())).unzip();
+    let lift = lifts.iter().sum::<f64>() / 6.0;
+    assert!((lift / 2.09 - 1.0).abs() < 1.0 / 3.0, "{lift}: {lifts:?}");
+    assert!(strains.iter().all(|strain| (0.01..0.03).contains(strain)), "{strains:?}");
 }
 
 #[test]

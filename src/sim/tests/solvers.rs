@@ -37,11 +37,8 @@ fn every_level_gives_the_same_bits_through_steps_with_tearing() {
             digests
         };
         let twin = run(SimdLevel::Scalar);
-        for level in SimdLevel::ALL {
-            if !level.is_available() {
-                eprintln!("skipped: this CPU has no {}", level.name());
-                continue;
-            }
+        // Those that this CPU lacks are named by `every_instruction_set_of_this_machine_is_compared`.
+        for level in SimdLevel::ALL.into_iter().filter(|level| level.is_available()) {
             let found = run(level);
             let first = twin.iter().zip(&found).position(|(a, b)| a != b);
             assert_eq!(first, None, "{} differs from this step on", level.name());
@@ -180,6 +177,22 @@ fn a_film_that_came_to_rest_sleeps_and_wakes_when_settings_change() {
     assert!(film.changes.moved && film.constraints.awake_count() > 100);
     let most = |positions: &[Vec3]| positions.iter().map(|p| p.z).fold(0.0, f32::max);
     assert!(most(&film.mesh.geometry.positions) > 1.5 * most(&before));
+}
+
+#[test]
+fn a_film_whose_targets_do_not_narrow_sleeps() {
+    for rate in [0.0, 1e-9] {
+        let mut settings = CoatingSettings::default();
+        settings.tearing.weak_probability = 0.0;
+        settings.adhesion.decay = 100.0;
+        settings.tearing.contraction_growth = 0.0;
+        settings.deform.narrowing_rate = rate;
+        let mut film = plate(300, 8, &settings, 100);
+        film.age_to(1.0, &settings, &Environment::default());
+        film.validate().unwrap();
+        assert!(film.constraints.bend_count() > 0);
+        assert_eq!(film.constraints.awake_count(), 0, "still awake at a rate of {rate}");
+    }
 }
 
 #[test]

@@ -39,10 +39,12 @@ pub struct DustFactors {
 pub fn dust_rate(factors: DustFactors, settings: &DustSettings) -> f32 {
     let DustFactors { height, facing, dihedral } = factors;
     let hollow = 1.0 / (1.0 + ops::exp(4.0 * (dihedral - PI)));
-    settings.rate
+    let rate = settings.rate
         * (1.0 - settings.height * height)
         * (1.0 - settings.direction * 0.5 * (1.0 + facing))
-        * (1.0 + settings.curvature * (hollow - 0.5))
+        * (1.0 + settings.curvature * (hollow - 0.5));
+    // A cosine that was rounded to above 1 must not make dust go.
+    if rate > 0.0 { rate } else { 0.0 }
 }
 
 #[cfg(test)]

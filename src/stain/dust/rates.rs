@@ -4,7 +4,7 @@ use bevy_math::{Vec3, ops};
 
 use super::factors::{DustFactors, dust_rate};
 use crate::{
-    film::{FilmMesh, VertexId},
+    film::{FilmMesh, VertexId, words::Words},
     settings::DustSettings,
     stain::{duplicates::Duplicates, shape::Shape},
 };
@@ -52,6 +52,21 @@ impl DustRates {
         if let Some(stale) = self.stale.get_mut(v.index()) {
             *stale = true;
         }
+    }
+
+    /// Appends the rates and what they were computed for, which is kept through small changes.
+    pub fn write_state(&self, to: &mut Words) {
+        // The shares that are left after a tick follow from rates, basis and tick.
+        let Self { rates, left: _, dt, metal: _, seen, stale, basis } = self;
+        to.floats(rates);
+        to.float(*dt);
+        to.vectors(seen);
+        to.flags(stale);
+        to.list(basis.iter().flat_map(|Basis { gravity, settings, foot, extent }| {
+            let DustSettings { rate, height, direction, curvature } = settings;
+            let [x, y, z] = gravity.to_array();
+            [x, y, z, *rate, *height, *direction, *curvature, *foot, *extent].map(f32::to_bits)
+        }));
     }
 
     /// Brings all rates of the film up to date with its shape, `settings` and `gravity`, for a tick of `dt`. Returns
@@ -155,5 +170,35 @@ impl Basis {
         let height = if self.extent > 0.0 { height / self.extent } else { 0.0 };
         let factors = DustFactors { height, facing: shape.normal.dot(self.gravity), dihedral: shape.dihedral };
         dust_rate(factors, &self.settings)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::words::assert_each_counts;
+
+    #[test]
+    fn every_field_of_dust_rates_counts() {
+        let basis = Basis { gravity: Vec3::NEG_Y, settings: DustSettings::default(), foot: 0.0, extent: 1.0 };
+        let rates = DustRates {
+            rates: vec![1.0; 2],
+            seen: vec![Vec3::ZERO; 2],
+            stale: vec![false; 2],
+            basis: Some(basis),
+            ..DustRates::default()
+        };
+        let changes: [fn(&mut DustRates); 9] = [
+            |dust| dust.rates[1] = 0.5,
+            |dust| dust.dt = 0.5,
+            |dust| dust.seen[1] = Vec3::X,
+            |dust| dust.stale[1] = true,
+            |dust| dust.basis = None,
+            |dust| dust.basis.as_mut().unwrap().gravity = Vec3::X,
+            |dust| dust.basis.as_mut().unwrap().settings.rate = 0.5,
+            |dust| dust.basis.as_mut().unwrap().foot = 0.5,
+            |dust| dust.basis.as_mut().unwrap().extent = 0.5,
+        ];
+        assert_each_counts(&rates, DustRates::write_state, &changes);
     }
 }

@@ -40,7 +40,7 @@ pub fn settle_dust(
     dt: f32,
 ) {
     let mut rates = std::mem::take(&mut stains.dust_rates);
-    let basis = rates.update(mesh, settings, environment.gravity, dt);
+    let basis = rates.update(mesh, settings, environment.in_range().gravity, dt);
     if settings.rate > 0.0 {
         for (dust, left) in stains.film.dust.iter_mut().zip(rates.left_on_film()) {
             *dust = 1.0 - (1.0 - *dust) * left;
@@ -51,8 +51,10 @@ pub fn settle_dust(
             let dust = &mut stains.metal.dust[v as usize];
             *dust = 1.0 - (1.0 - *dust) * left;
         }
-        stains.revision = stains.revision.wrapping_add(1);
     }
     rates.give_back(basis);
     stains.dust_rates = rates;
+    if settings.rate > 0.0 {
+        stains.revise_if_seen();
+    }
 }

@@ -1,6 +1,7 @@
 //! Black stains over whole runs: where dust gathers, and that it follows film that moves.
 
 use super::*;
+use crate::settings::DustSettings;
 
 #[test]
 fn dust_gathers_low_and_on_top_of_things() {
@@ -42,4 +43,25 @@ fn dust_follows_film_that_moves() {
         film.stains.film.dust.clone()
     };
     assert!(flat.iter().all(|d| (d - flat[0]).abs() < 1e-5), "a flat plate is dusty all alike");
+}
+
+#[test]
+fn gravity_of_any_length_keeps_dust_in_its_range() {
+    let settings = CoatingSettings { dust: DustSettings { direction: 1.0, ..DustSettings::default() }, ..held() };
+    let (positions, triangles) = crate::film::tests::sphere(2);
+    let mesh = FilmMesh::new(positions, &triangles).unwrap();
+    let aged = |gravity: Vec3| {
+        let mut film = film_of(mesh.clone(), &settings, 50);
+        crack(&mut film, Vec3::Y, Vec3::X);
+        film.age_to(0.5, &settings, &Environment::still(gravity));
+        film.validate().unwrap_or_else(|error| panic!("{gravity}: {error}"));
+        film
+    };
+    let unit = aged(Vec3::NEG_Y);
+    for length in [1e-30, 0.1, 9.81, 1e20] {
+        assert_eq!(aged(Vec3::NEG_Y * length).stains.film.dust, unit.stains.film.dust, "gravity {length}");
+    }
+    for odd in [Vec3::NAN, Vec3::splat(f32::INFINITY)] {
+        assert_eq!(aged(odd).digest(), aged(Vec3::ZERO).digest(), "gravity {odd}");
+    }
 }

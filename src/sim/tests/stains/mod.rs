@@ -3,6 +3,7 @@
 mod dust;
 mod moisture;
 mod properties;
+mod revisions;
 mod rust;
 
 use bevy_math::Vec3;

@@ -1,8 +1,12 @@
 //! Every instruction set against the scalar twin, bit for bit; the kernels against the plain forms.
 
+mod finite;
+mod levels;
+
 use bevy_math::{Vec3, ops};
 use proptest::prelude::*;
 
+use self::levels::levels;
 use super::{
     kernels,
     lanes::{self, vector::Lanes},
@@ -18,31 +22,35 @@ use crate::{
     film::{HalfEdgeId, signed_dihedral},
 };
 
-/// Levels to be compared with the scalar twin. Says which this CPU lacks.
-fn levels() -> Vec<SimdLevel> {
-    let (here, missing): (Vec<_>, Vec<_>) = SimdLevel::ALL.into_iter().partition(|level| level.is_available());
-    for level in missing {
-        eprintln!("skipped: this CPU has no {}", level.name());
-    }
-    here.into_iter().filter(|&level| level != SimdLevel::Scalar).collect()
-}
-
-/// Which of many bit patterns a NaN has is open on every CPU; no film has any.
+/// Returns the bits of `points`. Nothing that is not finite is to be among them, and so no NaN, which has many bit
+/// patterns.
 fn bits(points: &[Point]) -> Vec<[u32; 4]> {
-    points.iter().map(|p| p.0.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })).collect()
+    assert!(points.iter().flat_map(|p| p.0).all(f32::is_finite));
+    points.iter().map(|p| p.0.map(f32::to_bits)).collect()
 }
 
-/// Coordinates as they occur, and such as break things: zeros of both signs, huge, tiny, infinite, NaN.
+/// Coordinates as they occur, and such as break things: zeros of both signs, huge and tiny ones.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         20 => -3.0f32..3.0,
-        1 => prop::sample::select(vec![0.0, -0.0, 1e-30, -1e-42, 1e18, -1e30, f32::INFINITY, f32::NAN]),
+        1 => prop::sample::select(vec![0.0, -0.0, 1e-30, -1e-42, 1e18, -1e30]),
     ]
 }
 
 fn point() -> impl Strategy<Value = Point> {
     ([coordinate(), coordinate(), coordinate()], prop::bool::ANY)
         .prop_map(|([x, y, z], free)| Point([x, y, z, if free { 1.0 } else { 0.0 }]))
+}
+
+/// A null plane, then so many random ones, with normals no longer than about 1.
+fn planes(count: usize) -> impl Strategy<Value = Vec<Point>> {
+    let plane = ((-1.0f32..1.0, -1.0f32..1.0, -1.0f32..1.0), coordinate());
+    prop::collection::vec(plane.prop_map(|((x, y, z), distance)| Point([x, y, z, distance])), count).prop_map(
+        |mut planes| {
+            planes.insert(0, Point::default());
+            planes
+        },
+    )
 }
 
 /// A null point, then so many random ones.
@@ -97,7 +105,7 @@ proptest! {
 
     #[test]
     fn momentum_and_half_space_are_the_same_bits_at_every_level(
-        now in points(LANES), before in points(LANES), planes in points(LANES), keep in 0.0f32..1.0,
+        now in points(LANES), before in points(LANES), planes in planes(LANES), keep in 0.0f32..1.0,
     ) {
         let [awake] = offsets::<1>();
         let run = |level| {
@@ -176,11 +184,27 @@ proptest! {
             pack.medians[i][9] = plain.rest_medians[i] * plain.rest_medians[i];
         }
         unsafe { kernels::sweep_bends::<lanes::scalar::Scalar>(points.as_mut_ptr(), &[pack]) };
-        // The strains agree at the target to second order: in these small turns, to a fraction of the correction.
-        let size = d.iter().map(|d| d.length()).fold(0.0, f32::max);
+        // The strain of a wing that rests at the cosine k and is at c is `1 - sqrt(x)` in the printed form and
+        // `(1 - x) / (1 + x)` here, with `x = (1 + k) / (1 + c)`: they differ by the share s / 2 of the strain s, to first
+        // order. A wing's pull moves no point farther than its share of the mass.
+        let edge = (p[1] - p[0]).normalize();
+        let altitudes = tips.map(|tip| (tip - edge * edge.dot(tip)).normalize());
+        let neutral = {
+            let normals = [edge.cross(altitudes[0]), altitudes[1].cross(edge)];
+            (normals[0] + normals[1]).normalize()
+        };
+        let (mut strain, mut pull) = (0.0f32, 0.0f32);
+        for i in 0..2 {
+            let median = tips[i] - Vec3::Y * 0.5;
+            let (cosine, rest) = (neutral.dot(median) / median.length(), plain.skew[i] * ops::cos(plain.target * 0.5));
+            strain = strain.max((1.0 - ((1.0 + rest) / (1.0 + cosine)).sqrt()).abs());
+            pull = pull.max(4.0 * bend_corrections(p, [1.0; 4], plain.reach, plain.rest_medians).unwrap()[i + 2].length());
+        }
+        let share = pull / w.iter().sum::<f32>();
         for i in 0..4 {
             let moved = xyz(points[i + 1]) - p[i];
-            prop_assert!((moved - d[i]).length() <= 0.25 * size + 1e-6, "{i}: {moved} for {}", d[i]);
+            let allowed = 0.6 * strain * share + 2e-6;
+            prop_assert!((moved - d[i]).length() <= allowed, "{i}: {moved} for {}, strain {strain}", d[i]);
         }
         prop_assert_eq!(points[0], Point::default());
     }

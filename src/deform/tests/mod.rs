@@ -1,5 +1,8 @@
 //! Both constraints against numeric gradients and limits; the solver against the paper's figures.
 
+pub mod draw;
+mod finite;
+
 use core::f32::consts::PI;
 
 use bevy_math::{DVec3, Vec3, ops};
@@ -7,7 +10,7 @@ use proptest::prelude::*;
 
 use super::{bend::bend_corrections, half_space::above_plane, length::length_corrections, rigid, *};
 use crate::{
-    film::{FilmChanges, FilmMesh, HalfEdgeId, LoosePieces, PieceScratch, TearEnd, signed_dihedral},
+    film::{FilmChanges, FilmMesh, HalfEdgeId, LoosePieces, PieceScratch, TearEnd, VertexId, signed_dihedral},
     settings::DeformSettings,
 };
 
@@ -374,4 +377,29 @@ fn cracks_through_a_sleeping_film_wake_it() {
     mesh.validate().unwrap();
     constraints.validate(&mesh, |_| false).unwrap();
     assert!(constraints.awake_count() > changes.duplicates.len());
+}
+
+#[test]
+fn a_vertex_that_lets_go_after_its_neighbours_moves_by_the_plain_solver_too() {
+    let mut mesh = disk(4);
+    let mut constraints = FilmConstraints::new(&mesh);
+    let all: Vec<VertexId> = mesh.topology.all_vertices().collect();
+    let (middle, others) = all.split_first().unwrap();
+    let settings = DeformSettings::default();
+    let pace = SolvePace { dt: 1e-3, sweeps: 10, momentum: 0.0, tick: false, quality: SolverQuality::Reference };
+    // The middle has all its constraints by then, as its neighbours have them.
+    for part in [others, &[*middle][..]] {
+        let mut changes = FilmChanges { separated: part.to_vec(), ..FilmChanges::default() };
+        let before = (constraints.length_count(), constraints.bend_count());
+        update_constraints(&mesh, &mut constraints, &changes);
+        assert_eq!(part.len() == 1, before == (constraints.length_count(), constraints.bend_count()));
+        let loose = LoosePieces::default();
+        bend_film(&mut mesh, &mut constraints, &loose, &settings, pace, &mut changes, &mut BendScratch::default());
+    }
+    for v in others {
+        mesh.geometry.positions[v.index()].z += 0.5;
+    }
+    let (mut changes, loose) = (FilmChanges::default(), LoosePieces::default());
+    bend_film(&mut mesh, &mut constraints, &loose, &settings, pace, &mut changes, &mut BendScratch::default());
+    assert!(mesh.geometry.height(*middle) > 0.25, "the others do not draw it along: {}", mesh.geometry.height(*middle));
 }

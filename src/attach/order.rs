@@ -1,0 +1,141 @@
+//! Collects the inputs of a build, and refuses meshes that cannot be coated.
+
+use std::sync::Arc;
+
+use bevy::{
+    ecs::{
+        entity::Entity,
+        reflect::AppTypeRegistry,
+        world::{EntityRef, World},
+    },
+    math::{Affine3A, Vec3},
+    mesh::{Mesh, Mesh3d, skinning::SkinnedMesh},
+    transform::components::GlobalTransform,
+};
+
+#[cfg(feature = "render")]
+use crate::{api::stain_display::StainDisplay, display::CoatedMaterial};
+use crate::{
+    api::{
+        assets::{Waited, loaded},
+        clock::CoatingGravity,
+        coating::{Coating, FilmKey, SettingsSource},
+        error::CoatingFault,
+        links::FilmSlot,
+        shelter::Shelter,
+        weather::CoatingWeather,
+    },
+    deform::SolverQuality,
+    settings::CoatingSettings,
+    shelter::{CastOrder, ShelterScene},
+    stain::Environment,
+};
+
+/// Inputs of a build but for its seed and its resolution, as copies that are not shared with the main thread.
+pub(super) struct FilmInputs {
+    pub meshes: Vec<Mesh>,
+    pub key: FilmKey,
+    pub settings: Arc<CoatingSettings>,
+    pub quality: SolverQuality,
+    pub scale: Vec3,
+    /// Gravity and weather of the film's past.
+    pub past: Environment,
+    /// Meshes that may shelter the film; `None` without rain and sun, or if the coating does not ask for shelters.
+    pub shelter: Option<CastOrder>,
+}
+
+/// Collects the inputs of a build; `None` while assets are loading or shelters are not known.
+///
+/// # Errors
+/// [`CoatingFault`] if the meshes cannot be coated.
+pub(super) fn inputs_of(
+    world: &World,
+    film: Entity,
+    root: Entity,
+    slots: &[Entity],
+    coating: &Coating,
+) -> Waited<FilmInputs> {
+    coating.validate()?;
+    let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
+    let mut meshes = Vec::with_capacity(slots.len());
+    for &slot in slots {
+        let Ok(entity) = world.get_entity(slot) else { return Ok(None) };
+        check_components(world, entity, coating)?;
+        // A mesh that has a film already shows that film, but is built from its own shape.
+        let own = entity.get::<FilmSlot>().map(|claim| &claim.original).or(entity.get::<Mesh3d>().map(|mesh| &mesh.0));
+        let Some(handle) = own else { return Ok(None) };
+        match loaded(world, handle, CoatingFault::MeshNotLoaded)? {
+            Some(mesh) => meshes.push(mesh),
+            None => return Ok(None),
+        }
+    }
+    let transform = world.get::<GlobalTransform>(film).copied().unwrap_or_default();
+    let (scale, ..) = transform.to_scale_rotation_translation();
+    if !scale.is_finite() || scale.min_element() == 0.0 || scale.x * scale.y * scale.z == 0.0 {
+        return Err(CoatingFault::Scale(scale.x, scale.y, scale.z));
+    }
+    let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
+    let today = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
+    let past = coating.key().past_weather.unwrap_or_default();
+    // Rays are cast for the past if it needs them, else for today, so that the film need not wait for them later.
+    let cast_for = if past.reaches_anything() { past } else { today };
+    let mut shelter = None;
+    if coating.shelter == Shelter::Scene
+        && cast_for.reaches_anything()
+        && let Some(scene) = world.get_resource::<ShelterScene>()
+    {
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        let place = Affine3A::from_rotation_translation(rotation, translation);
+        shelter = scene.order(&cast_for.environment(gravity, &transform), place, root, slots);
+        if shelter.is_none() {
+            return Ok(None);
+        }
+    }
+    Ok(Some(FilmInputs {
+        meshes: meshes.into_iter().cloned().collect(),
+        key: coating.key(),
+        settings,
+        quality: coating.quality,
+        scale,
+        past: past.environment(gravity, &transform),
+        shelter,
+    }))
+}
+
+/// Returns the settings of a coating once they are loaded, and checks them.
+fn settings_of(world: &World, source: &SettingsSource) -> Waited<Arc<CoatingSettings>> {
+    let settings = match source {
+        SettingsSource::Inline(settings) => Some(settings),
+        SettingsSource::Asset(handle) => loaded(world, handle, CoatingFault::SettingsNotLoaded)?,
+    };
+    settings.map(|settings| Ok(settings.validate().map(|()| Arc::new(settings.clone()))?)).transpose()
+}
+
+/// Refuses skinned and morphed meshes, and custom materials where they would have to be replaced. Types that are not
+/// part of every build of Bevy are recognised by their type paths.
+fn check_components(
+    world: &World,
+    entity: EntityRef,
+    #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "there are no materials"))] coating: &Coating,
+) -> Result<(), CoatingFault> {
+    if entity.contains::<SkinnedMesh>() {
+        return Err(CoatingFault::Skinned);
+    }
+    let Some(registry) = world.get_resource::<AppTypeRegistry>() else { return Ok(()) };
+    let registry = registry.read();
+    let infos = entity.archetype().components().iter().filter_map(|&id| world.components().get_info(id));
+    for path in infos.filter_map(|info| registry.get_type_info(info.type_id()?)).map(|info| info.type_path()) {
+        if path == "bevy_mesh::morph::MeshMorphWeights" {
+            return Err(CoatingFault::Morphed);
+        }
+        #[cfg(feature = "render")]
+        if coating.stain_display == StainDisplay::Material
+            && let Some(material) = path.strip_prefix("bevy_pbr::mesh_material::MeshMaterial3d<")
+            && !entity.contains::<CoatedMaterial>()
+            && material != "bevy_pbr::pbr_material::StandardMaterial>"
+        {
+            return Err(CoatingFault::CustomMaterial { material: material.trim_end_matches('>').into() });
+        }
+    }
+    Ok(())
+}

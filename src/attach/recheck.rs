@@ -1,0 +1,76 @@
+//! Looks again at meshes that were refused or left alone, once the cause may have been mended.
+
+use bevy::{
+    asset::{AssetEvent, AssetId},
+    ecs::{
+        entity::Entity,
+        message::MessageReader,
+        query::Without,
+        system::{Commands, Local, Query},
+        world::World,
+    },
+    mesh::Mesh,
+};
+
+use super::suspects::suspects_of;
+use crate::{
+    api::{
+        coating::{Coating, SettingsSource},
+        links::{AwaitingFilm, FilmRefused, LeftAlone, Suspects},
+    },
+    settings::CoatingSettings,
+};
+
+/// Marks refused meshes as awaiting again when their mesh, material, settings, components, scale or coating changed.
+/// All meshes that would have shared a film are looked at together.
+pub(super) fn recheck_refused(
+    world: &World,
+    mut commands: Commands,
+    refused: Query<(Entity, &FilmRefused), Without<AwaitingFilm>>,
+    left_alone: Query<(Entity, &LeftAlone), Without<AwaitingFilm>>,
+    mut meshes: MessageReader<AssetEvent<Mesh>>,
+    mut settings: MessageReader<AssetEvent<CoatingSettings>>,
+    #[cfg(feature = "render")] mut materials: Option<MessageReader<AssetEvent<bevy::pbr::StandardMaterial>>>,
+    mut again: Local<Vec<Entity>>,
+) {
+    if refused.is_empty() && left_alone.is_empty() {
+        meshes.clear();
+        settings.clear();
+        #[cfg(feature = "render")]
+        materials.iter_mut().for_each(MessageReader::clear);
+        return;
+    }
+    let meshes: Vec<AssetId<Mesh>> = meshes.read().filter_map(edited).collect();
+    let settings: Vec<AssetId<CoatingSettings>> = settings.read().filter_map(edited).collect();
+    #[cfg(feature = "render")]
+    let materials: Vec<_> = materials.iter_mut().flat_map(MessageReader::read).filter_map(edited).collect();
+    let changed = |entity: Entity, root: Entity, seen: &Suspects| {
+        let reloaded = match world.get::<Coating>(root).map(|coating| &coating.settings) {
+            Some(SettingsSource::Asset(handle)) => settings.contains(&handle.id()),
+            _ => false,
+        };
+        #[cfg(feature = "render")]
+        let reloaded = reloaded || seen.material.is_some_and(|material| materials.contains(&material));
+        reloaded || meshes.contains(&seen.mesh) || suspects_of(world, entity, root).as_ref() != Some(seen)
+    };
+    again.clear();
+    again.extend(refused.iter().filter(|(entity, r)| changed(*entity, r.root, &r.seen)).map(|(_, r)| r.film));
+    for (entity, FilmRefused { root, film, .. }) in &refused {
+        if again.contains(film) {
+            commands.entity(entity).try_insert(AwaitingFilm { root: *root });
+        }
+    }
+    for (entity, LeftAlone { root, seen }) in &left_alone {
+        if changed(entity, *root, seen) {
+            commands.entity(entity).try_remove::<LeftAlone>().try_insert(AwaitingFilm { root: *root });
+        }
+    }
+}
+
+/// Returns the asset that was added or changed.
+fn edited<A: bevy::asset::Asset>(event: &AssetEvent<A>) -> Option<AssetId<A>> {
+    match event {
+        AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
+        _ => None,
+    }
+}

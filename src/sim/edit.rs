@@ -1,0 +1,149 @@
+//! Edits of a film from outside: damage that a game does, with all parts of the film in step.
+//!
+//! ```
+//! use bevy_coating::{film::FaceFate, remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment};
+//!
+//! let (settings, environment) = (CoatingSettings::default(), Environment::default());
+//! let piece = sample::plate(100, 7)?;
+//! let mut film = FilmState::new(&piece.film, &settings, 7, 100).expect("a plate is a manifold");
+//! let edge = film.mesh.topology.all_edges().find(|&h| film.mesh.topology.bound_twin(h).is_some()).expect("an edge");
+//!
+//! // A blow: an edge tears, and a face flies off.
+//! assert!(film.tear_edge(edge, &settings, &environment));
+//! assert!(film.strip_face(edge.face(), &settings, &environment));
+//! assert_ne!(film.mesh.topology.fate(edge.face()), FaceFate::Live);
+//! assert!(!film.strip_face(edge.face(), &settings, &environment), "gone already");
+//! assert!(film.changes.debris.iter().any(|debris| debris.faces == 1));
+//! film.step(&settings, &environment);
+//! # Ok::<(), bevy_coating::surface::BuildError>(())
+//! ```
+
+use super::{clock::FilmClock, scratch::StepScratch, state::FilmState};
+use crate::{
+    deform::{self, FilmConstraints},
+    film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId},
+    fracture::{self, FilmForces},
+    settings::CoatingSettings,
+    stain::{self, Environment, StainFields},
+};
+
+/// Parts of a film that follow each other in an edit. The plugin keeps them as components of an entity.
+#[derive(Debug)]
+pub struct FilmParts<'a> {
+    /// Mesh of the film.
+    pub mesh: &'a mut FilmMesh,
+    /// Forces and fracture state.
+    pub forces: &'a mut FilmForces,
+    /// Constraints of bending.
+    pub constraints: &'a mut FilmConstraints,
+    /// Stains of the film and the metal.
+    pub stains: &'a mut StainFields,
+    /// Step counter.
+    pub clock: &'a FilmClock,
+    /// Buffers of a step.
+    pub scratch: &'a mut StepScratch,
+}
+
+/// Tears the edge of `h`, whatever holds it, and separates its ends from the metal. Faces and pieces that nothing holds
+/// any more come off.
+///
+/// Returns what happened, in the form of a step's changes; display and messages follow from it. Returns `None`, and
+/// changes nothing, if there is no such edge, it has torn or lies on the border, or a face at it is gone.
+///
+/// ```
+/// use bevy_coating::{
+///     film::HalfEdgeId,
+///     remesh::sample,
+///     settings::CoatingSettings,
+///     sim::{
+///         FilmState,
+///         edit::{FilmParts, tear_edge},
+///     },
+///     stain::Environment,
+/// };
+///
+/// let (settings, environment) = (CoatingSettings::default(), Environment::default());
+/// let piece = sample::plate(100, 7)?;
+/// let mut film = FilmState::new(&piece.film, &settings, 7, 100).expect("a plate is a manifold");
+/// let edge = film.mesh.topology.all_edges().find(|&h| film.mesh.topology.bound_twin(h).is_some()).expect("an edge");
+///
+/// let FilmState { mesh, forces, constraints, stains, clock, scratch, .. } = &mut film;
+/// let parts = FilmParts { mesh, forces, constraints, stains, clock, scratch };
+/// let changes = tear_edge(parts, &settings, &environment, edge).expect("it was bound");
+/// assert_eq!(changes.torn, [edge]);
+/// assert_eq!(changes.separated.len(), 2);
+/// # Ok::<(), bevy_coating::surface::BuildError>(())
+/// ```
+pub fn tear_edge(
+    parts: FilmParts,
+    settings: &CoatingSettings,
+    environment: &Environment,
+    h: HalfEdgeId,
+) -> Option<FilmChanges> {
+    let mut changes = FilmChanges::default();
+    edit(parts, environment, &mut changes, |parts, changes| {
+        let age = parts.clock.age() as f32;
+        let FilmParts { mesh, forces, scratch, .. } = parts;
+        fracture::tear_by_hand(mesh, forces, settings, environment.gravity, age, h, changes, &mut scratch.fracture)
+    })
+    .then_some(changes)
+}
+
+/// Separates the corners of the face `f`, tears its edges and removes it. What else nothing holds any more comes off
+/// with it.
+///
+/// Returns what happened, in the form of a step's changes; display and messages follow from it. Returns `None`, and
+/// changes nothing, if there is no such face or it is gone. See [`tear_edge`] for an example.
+pub fn strip_face(
+    parts: FilmParts,
+    settings: &CoatingSettings,
+    environment: &Environment,
+    f: FaceId,
+) -> Option<FilmChanges> {
+    let mut changes = FilmChanges::default();
+    edit(parts, environment, &mut changes, |parts, changes| {
+        let age = parts.clock.age() as f32;
+        let FilmParts { mesh, forces, scratch, .. } = parts;
+        fracture::strip_by_hand(mesh, forces, settings, environment.gravity, age, f, changes, &mut scratch.fracture)
+    })
+    .then_some(changes)
+}
+
+/// Does an edit and lets all other parts follow it. Returns whether anything was edited.
+fn edit(
+    mut parts: FilmParts,
+    environment: &Environment,
+    changes: &mut FilmChanges,
+    fracture: impl FnOnce(&mut FilmParts, &mut FilmChanges) -> bool,
+) -> bool {
+    let edited = fracture(&mut parts, changes);
+    if edited {
+        deform::update_constraints(parts.mesh, parts.constraints, changes);
+        stain::update_stains(parts.mesh, parts.stains, changes, environment.gravity);
+    }
+    edited
+}
+
+impl FilmState {
+    /// Tears the edge of `h`, whatever holds it, and separates its ends from the metal, between two steps. Returns
+    /// whether there was such an edge, bound between two faces.
+    ///
+    /// What happened is appended to [`FilmState::changes`]. See [`edit`](self) for an example.
+    pub fn tear_edge(&mut self, h: HalfEdgeId, settings: &CoatingSettings, environment: &Environment) -> bool {
+        let found = tear_edge(self.parts(), settings, environment, h);
+        found.map(|found| self.changes.append(found)).is_some()
+    }
+
+    /// Cuts out the face `f` and removes it, between two steps. Returns whether there was such a face.
+    ///
+    /// What happened is appended to [`FilmState::changes`]. See [`edit`](self) for an example.
+    pub fn strip_face(&mut self, f: FaceId, settings: &CoatingSettings, environment: &Environment) -> bool {
+        let found = strip_face(self.parts(), settings, environment, f);
+        found.map(|found| self.changes.append(found)).is_some()
+    }
+
+    fn parts(&mut self) -> FilmParts<'_> {
+        let Self { mesh, forces, constraints, stains, clock, scratch, .. } = self;
+        FilmParts { mesh, forces, constraints, stains, clock, scratch }
+    }
+}
