@@ -95,7 +95,9 @@ fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
     Foot { triangle: f, position: a * weights.x + b * weights.y + c * weights.z, weights }
 }
 
+/// Computes in double precision, since sums of products are too inexact on slivers.
 fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
+    let [p, a, b, c] = [p, a, b, c].map(|v| v.as_dvec3());
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));
     if d1 <= 0.0 && d2 <= 0.0 {
@@ -108,7 +110,7 @@ fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
     }
     let vc = d1 * d4 - d3 * d2;
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let t = d1 / (d1 - d3);
+        let t = (d1 / (d1 - d3)) as f32;
         return Vec3::new(1.0 - t, t, 0.0);
     }
     let cp = p - c;
@@ -118,16 +120,14 @@ fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
     }
     let vb = d5 * d2 - d1 * d6;
     if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let t = d2 / (d2 - d6);
+        let t = (d2 / (d2 - d6)) as f32;
         return Vec3::new(1.0 - t, 0.0, t);
     }
     let va = d3 * d6 - d5 * d4;
     if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        let t = ((d4 - d3) / ((d4 - d3) + (d5 - d6))) as f32;
         return Vec3::new(0.0, 1.0 - t, t);
     }
-    // In double precision, since the sums above are too inexact on slivers.
-    let (ab, ac, ap) = (ab.as_dvec3(), ac.as_dvec3(), ap.as_dvec3());
     let normal = ab.cross(ac);
     let square = normal.length_squared();
     if square <= 0.0 {
