@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, fs, path::Path};
 
-use crate::tool::{QUICK, bake, baked, files, folder, write_two_squares};
+use crate::tool::{QUICK, bake, baked, files, folder, stats, write_two_squares};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
@@ -88,4 +88,21 @@ fn folders_without_models_or_without_a_place_are_bad_input() {
         let named = if case[0] == "empty" { "empty" } else { "file" };
         assert!(error.contains(named), "{case:?}: {error}");
     }
+}
+
+/// A pattern may begin with a hyphen, and options of one kind add up.
+#[test]
+fn what_is_excluded_gets_no_film() {
+    let folder = folder();
+    write_two_squares(folder.path());
+    let components = |patterns: &[&str]| {
+        let arguments = [&["two.gltf", "--triangles", "200", "--age", "0"], patterns].concat();
+        stats(folder.path(), &arguments)["film"]["components"].clone()
+    };
+    assert_eq!(components(&["--exclude", "lar*"]), 1);
+    assert_eq!(components(&["--exclude", "-*", "--exclude", "sm?ll"]), 1);
+    assert_eq!(components(&[]), 2);
+    let output = baked(folder.path(), &["two.gltf", "--triangles", "200", "--age", "0", "--exclude", "nobody"]);
+    let warning = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(warning.lines().any(|line| line.contains("nobody")), "{warning}");
 }
