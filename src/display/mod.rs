@@ -83,9 +83,7 @@ impl Plugin for FilmDisplayPlugin {
                 film_display::follow_films,
                 film_display::write_fronts,
                 #[cfg(feature = "render")]
-                (outlines::follow_outlines, parts::write_parts)
-                    .chain()
-                    .run_if(parts::has_materials),
+                (outlines::follow_outlines, parts::write_parts).chain().run_if(parts::has_materials),
             )
                 .chain()
                 .in_set(CoatingDisplay),

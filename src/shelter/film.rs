@@ -28,22 +28,32 @@ pub(crate) struct FilmShelter {
     /// Conditions for which the film's exposure was cast.
     pub cast: Option<CastKey>,
     /// Cast under way and its conditions. Dropping it cancels the cast.
-    pub under_way: Option<(Task<Exposure>, CastKey)>,
-    /// Scene, place and weather at the last check.
+    pub under_way: Option<(Task<Cast>, CastKey)>,
+    /// Place and weather at the last check.
     pub seen: Option<Seen>,
-    /// Number of successive frames in which `seen` changed.
+    /// Whether something that may shelter the film has moved, come or gone since.
+    pub touched: bool,
+    /// Number of successive frames in which `seen` changed, or the film was touched.
     pub restless: u32,
     /// Whether the exposure, or the cast under way, is for `seen`.
     pub settled: bool,
     /// Whether a cast is needed but could not be begun yet.
     pub overdue: bool,
+    /// Number of frames for which the film has waited for its turn to begin a cast; 0 while it needs none.
+    pub waited: u32,
+}
+
+/// Result of a cast.
+#[derive(Debug)]
+pub(crate) struct Cast {
+    pub exposure: Exposure,
+    /// Surface from which rays were cast.
+    pub surface: Arc<ExposedSurface>,
 }
 
 /// Exact inputs of a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
-    /// Revision of the scene.
-    pub revision: u64,
     /// Transform of the film.
     pub place: Affine3A,
     /// Directions of rain and sun in the film's space.
@@ -66,8 +76,9 @@ impl FilmShelter {
     /// Writes the result of a finished cast to `stains`.
     pub fn finish(&mut self, stains: &mut StainFields) {
         let Some((task, _)) = &mut self.under_way else { return };
-        let Some(exposure) = check_ready(task) else { return };
+        let Some(Cast { exposure, surface }) = check_ready(task) else { return };
         stains.exposure = exposure;
+        self.surface = Some(surface);
         self.cast = self.under_way.take().map(|(_, key)| key);
     }
 

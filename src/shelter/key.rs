@@ -1,10 +1,13 @@
 //! Defines the conditions of a cast, and decides when they have changed too much.
 
+use std::sync::Arc;
+
 use bevy::{
     ecs::entity::Entity,
     math::{Affine3A, Vec3},
 };
 
+use super::{ball::Ball, pieces::ShelterPieces};
 use crate::stain::{
     Environment, Exposure,
     exposure::{Blocker, ExposedSurface},
@@ -35,10 +38,25 @@ struct KeyPiece {
 /// Order for a cast: its conditions and the triangles that may stand in the way.
 #[derive(Clone, Debug)]
 pub(crate) struct CastOrder {
-    /// Conditions of the cast.
+    /// Conditions of the cast. Its pieces are found by [`cull`](Self::cull).
     pub key: CastKey,
     /// Triangles of each piece of the key.
     blockers: Vec<Blocker>,
+    /// Film in the world, and what stands there.
+    around: Around,
+}
+
+/// Film in the world, and what stands there.
+#[derive(Clone, Debug)]
+pub(super) struct Around {
+    /// Transform from the film's space to the world.
+    pub place: Affine3A,
+    /// Entity with the film's coating.
+    pub root: Entity,
+    /// Entities of the film's own meshes, which do not count.
+    pub slots: Vec<Entity>,
+    /// Meshes that shelter props.
+    pub pieces: Arc<ShelterPieces>,
 }
 
 /// Returns the directions of rain and sun as unit vectors, or zero where there is none.
@@ -93,36 +111,38 @@ impl CastKey {
 }
 
 impl CastOrder {
-    /// Returns an order without any meshes.
-    pub fn new(environment: &Environment) -> Self {
-        Self { key: CastKey { falls: falls(environment), pieces: Vec::new() }, blockers: Vec::new() }
-    }
-
-    /// Adds a mesh that may stand in the way.
-    pub fn push(&mut self, entity: Entity, version: u64, blocker: Blocker) {
-        self.key.pieces.push(KeyPiece { entity, version, into: blocker.into });
-        self.blockers.push(blocker);
+    /// Returns an order in which nothing stands in the way yet.
+    pub(super) fn new(environment: &Environment, around: Around) -> Self {
+        Self { key: CastKey { falls: falls(environment), pieces: Vec::new() }, blockers: Vec::new(), around }
     }
 
     /// Returns the order for a film whose zero lies at `origin` of the space that the order was made for.
     pub fn shifted(mut self, origin: Vec3) -> Self {
-        let shift = Affine3A::from_translation(origin);
-        if origin != Vec3::ZERO {
-            self.key.pieces.iter_mut().for_each(|piece| piece.into *= shift);
-            self.blockers.iter_mut().for_each(|blocker| blocker.into *= shift);
-        }
+        self.around.place *= Affine3A::from_translation(origin);
         self
     }
 
-    /// Removes the meshes that cannot stand in the way of rain or sun on `surface`.
-    pub fn cull(&mut self, surface: &ExposedSurface) {
-        let falls = self.key.falls;
-        let counts =
-            |blocker: &Blocker| falls.iter().any(|&fall| fall != Vec3::ZERO && surface.may_meet(blocker, -fall));
-        let kept: Vec<bool> = self.blockers.iter().map(counts).collect();
-        let (mut pieces, mut blockers) = (kept.iter(), kept.iter());
-        self.key.pieces.retain(|_| pieces.next() == Some(&true));
-        self.blockers.retain(|_| blockers.next() == Some(&true));
+    /// Finds the meshes that may stand in the way of rain or sun on a film within `sphere`, a centre and a radius in
+    /// the film's space. Returns the number of meshes and groups of meshes that were looked at.
+    pub fn cull(&mut self, sphere: (Vec3, f32)) -> usize {
+        let Self { key, blockers, around } = self;
+        let Around { place, root, slots, pieces } = around;
+        let film = Ball { center: place.transform_point3(sphere.0), radius: sphere.1 };
+        let ups: Vec<Vec3> =
+            key.falls.iter().filter(|&&fall| fall != Vec3::ZERO).map(|&f| place.transform_vector3(-f)).collect();
+        let mut looked_at = 0;
+        for piece in pieces.near(&film, &ups, &mut looked_at) {
+            let Some(tree) = &piece.tree else { continue };
+            let others = piece.root.is_some_and(|only| only != *root);
+            if !others && !slots.contains(&piece.entity) {
+                let into = piece.place.inverse() * *place;
+                key.pieces.push(KeyPiece { entity: piece.entity, version: piece.version, into });
+                blockers.push(Blocker { tree: tree.clone(), into });
+            }
+        }
+        // Other casts may change the pieces without a copy now.
+        *pieces = Arc::default();
+        looked_at
     }
 
     /// Casts the rays and returns the exposure of each vertex.

@@ -6,14 +6,23 @@
 //! film, rain, sun -----------------------+--cast--> task --advance--> StainFields::exposure
 //! ```
 //!
-//! Nothing is surveyed or cast while there is neither rain nor sun.
+//! Nothing is surveyed or cast while there is neither rain nor sun. Then the work of a frame is in proportion to what
+//! moved and to what is near it: shelters and films are kept in trees of balls ([`ball_tree`]), in which a shelter that
+//! moves finds the films below it, and a film the shelters above it.
 
+mod ball;
+mod ball_tree;
 mod cast;
 mod film;
+mod films;
 mod key;
+mod pieces;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use cast::cast;
 pub(crate) use film::FilmShelter;
+pub(crate) use films::ShelteredFilms;
 pub(crate) use key::CastOrder;
 pub(crate) use scene::{ShelterScene, survey};

@@ -29,9 +29,9 @@ mod outline;
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
-mod rest;
 mod rebuilding;
 mod recovery;
+mod rest;
 mod seeds;
 mod settings;
 mod shelter;
