@@ -80,6 +80,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<CoatingWeather>()
             .init_resource::<CoatingStatus>()
             .init_resource::<stepping::StepCost>()
+            .init_resource::<stepping::ReachedPace>()
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
             .add_message::<FirstCrack>()
@@ -87,7 +88,8 @@ impl Plugin for CoatingWeatheringPlugin {
         diagnostics::add_diagnostics(app);
         stepping::add_step_schedule(app);
         add_attachment(app);
-        app.add_systems(self.schedule, (stepping::check_weather, stepping::advance).chain().in_set(CoatingAdvance));
+        let checks = (stepping::check_weather, stepping::check_clock, stepping::follow_coatings);
+        app.add_systems(self.schedule, (checks, stepping::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(FilmDisplayPlugin);
     }
 }

@@ -1,13 +1,15 @@
 //! The command line.
 
 use crate::common_scene::cli::{SceneArgs, parse_age, parse_preset};
+use crate::common_scene::keys;
+use crate::views;
 use bevy::prelude::Resource;
 use bevy_coating::settings::CoatingSettings;
 use clap::{Parser, ValueEnum};
 
 /// A painted street sign on a corner of a ruined city, ageing.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "city_sign", about)]
+#[command(name = "city_sign", about, after_help = keys::help(&views::NAMES))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

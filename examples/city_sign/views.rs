@@ -23,11 +23,14 @@ fn orbit(view: View) -> Orbit {
     }
 }
 
-/// The views of the window, the one asked for first.
+/// Names of the views, in the order of their keys.
+pub const NAMES: [&str; 3] = ["sign", "close", "street"];
+
+/// The views of the window, in the order of their keys. The first is the one asked for.
 pub fn views(options: &Options) -> Views {
-    let mut views = vec![("sign", View::Sign), ("close", View::Close), ("street", View::Street)];
-    views.sort_by_key(|(_, view)| *view != options.view);
-    Views(views.into_iter().map(|(name, view)| (name, orbit(view))).collect())
+    let views = [View::Sign, View::Close, View::Street];
+    let first = views.iter().position(|view| *view == options.view).unwrap_or(0);
+    Views { list: NAMES.into_iter().zip(views.map(orbit)).collect(), first }
 }
 
 /// One picture for each age and view.

@@ -19,6 +19,7 @@ pub mod camera;
 pub mod cli;
 pub mod graphics;
 pub mod headless;
+pub mod keys;
 pub mod paint;
 pub mod picture;
 pub mod sky;

@@ -87,6 +87,11 @@ impl Progress<'_, '_> {
         self.status.youngest
     }
 
+    /// Age that films gained per second lately.
+    pub fn age_per_second(&self) -> f64 {
+        self.status.age_per_second
+    }
+
     /// Every film has come to `age`, to within half a step of the finest film here.
     pub fn has_reached(&self, age: f64) -> bool {
         self.status.youngest > age - 0.5e-3

@@ -2,6 +2,7 @@
 
 use super::camera::{self, Orbit};
 use super::graphics;
+use super::keys::{self, Command, DIGITS};
 use super::paint::{Progress, Repaint};
 use super::sky::Sky;
 use bevy::anti_alias::fxaa::Fxaa;
@@ -13,7 +14,12 @@ use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 
 /// What the window looks at: the first view, until a digit key chooses another.
 #[derive(Resource, Clone, Debug)]
-pub struct Views(pub Vec<(&'static str, Orbit)>);
+pub struct Views {
+    /// Names and places, in the order of their keys.
+    pub list: Vec<(&'static str, Orbit)>,
+    /// Index of the first.
+    pub first: usize,
+}
 
 pub fn add(app: &mut App, title: &str, size: UVec2, views: Views) {
     let window = Window { title: title.into(), resolution: WindowResolution::new(size.x, size.y), ..default() };
@@ -23,32 +29,9 @@ pub fn add(app: &mut App, title: &str, size: UVec2, views: Views) {
         .insert_resource(views)
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
-        .add_systems(Update, (keys, look, orbit))
+        .add_systems(Update, (obey_keys, look, orbit))
         .add_systems(EguiPrimaryContextPass, read_out);
 }
-
-const KEYS: [(&str, &str); 7] = [
-    ("Space", "pause"),
-    ("S, N", "one step"),
-    ("Up, Down", "faster, slower"),
-    ("R", "fresh paint"),
-    ("Drag, wheel", "turn, zoom"),
-    ("Right drag", "shift"),
-    ("H", "this list"),
-];
-
-/// Keys of the views.
-const DIGITS: [KeyCode; 9] = [
-    KeyCode::Digit1,
-    KeyCode::Digit2,
-    KeyCode::Digit3,
-    KeyCode::Digit4,
-    KeyCode::Digit5,
-    KeyCode::Digit6,
-    KeyCode::Digit7,
-    KeyCode::Digit8,
-    KeyCode::Digit9,
-];
 
 /// Whether the list of keys is open.
 #[derive(Resource)]
@@ -61,7 +44,7 @@ impl Default for Help {
 }
 
 fn spawn_camera(mut commands: Commands, sky: Res<Sky>, views: Res<Views>) {
-    if let Some((_, orbit)) = views.0.first() {
+    if let Some((_, orbit)) = views.list.get(views.first) {
         commands.spawn((camera::view(&sky, *orbit), Fxaa::default()));
     }
 }
@@ -75,35 +58,30 @@ fn step(clock: &mut CoatingClock) {
     clock.request_steps(1);
 }
 
-fn keys(
+fn obey_keys(
     keyboard: Res<ButtonInput<KeyCode>>,
     mut clock: ResMut<CoatingClock>,
     mut commands: Commands,
     mut help: ResMut<Help>,
     mut exit: MessageWriter<AppExit>,
 ) {
-    for key in keyboard.get_just_pressed() {
-        match key {
-            KeyCode::Space => clock.paused = !clock.paused,
-            KeyCode::KeyS | KeyCode::KeyN => step(&mut clock),
-            KeyCode::ArrowUp | KeyCode::Equal | KeyCode::NumpadAdd => {
-                clock.age_per_second = (clock.age_per_second * 1.5).min(FASTEST);
-            }
-            KeyCode::ArrowDown | KeyCode::Minus | KeyCode::NumpadSubtract => {
-                clock.age_per_second = (clock.age_per_second / 1.5).max(SLOWEST);
-            }
-            KeyCode::KeyR => commands.trigger(Repaint),
-            KeyCode::KeyH => help.0 = !help.0,
-            KeyCode::Escape => {
+    for command in keyboard.get_just_pressed().filter_map(|key| keys::command(*key)) {
+        match command {
+            Command::Pause => clock.paused = !clock.paused,
+            Command::Step => step(&mut clock),
+            Command::Faster => clock.age_per_second = (clock.age_per_second * 1.5).min(FASTEST),
+            Command::Slower => clock.age_per_second = (clock.age_per_second / 1.5).max(SLOWEST),
+            Command::Repaint => commands.trigger(Repaint),
+            Command::Help => help.0 = !help.0,
+            Command::Close => {
                 exit.write(AppExit::Success);
             }
-            _ => {}
         }
     }
 }
 
 fn look(keyboard: Res<ButtonInput<KeyCode>>, views: Res<Views>, mut cameras: Query<(&mut Orbit, &mut Projection)>) {
-    for ((_, view), key) in views.0.iter().zip(DIGITS) {
+    for ((_, view), key) in views.list.iter().zip(DIGITS) {
         if keyboard.just_pressed(key) {
             for (mut orbit, mut projection) in &mut cameras {
                 *orbit = *view;
@@ -164,7 +142,7 @@ fn read_out(
         } else if clock.paused {
             "paused".to_owned()
         } else {
-            format!("{:.3} a second", clock.age_per_second)
+            format!("{:.3} a second of {:.3} asked for", progress.age_per_second(), clock.age_per_second)
         });
         ui.horizontal(|ui| {
             if ui.button(if clock.paused { "Run" } else { "Pause" }).clicked() {
@@ -185,9 +163,8 @@ fn read_out(
         if help.0 {
             ui.separator();
             egui::Grid::new("keys").num_columns(2).show(ui, |ui| {
-                let numbered = views.0.iter().enumerate().map(|(i, (name, _))| ((i + 1).to_string(), *name));
-                let others = KEYS.map(|(key, meaning)| (key.to_owned(), meaning));
-                for (key, meaning) in numbered.chain(others) {
+                let names: Vec<&str> = views.list.iter().map(|(name, _)| *name).collect();
+                for (key, meaning) in keys::list(&names) {
                     ui.monospace(key);
                     ui.label(meaning);
                     ui.end_row();

@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::common_scene::cli::{SceneArgs, parse_age, parse_preset};
+use crate::common_scene::keys;
 use crate::themes::Theme;
 use bevy::prelude::Resource;
 use bevy_coating::settings::CoatingSettings;
@@ -8,7 +9,7 @@ use clap::Parser;
 
 /// Painted test pieces side by side, stained by dust, rust and rain.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "stains", about)]
+#[command(name = "stains", about, after_help = keys::help(&Theme::ALL.map(|theme| theme.name())))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

@@ -77,7 +77,8 @@ pub fn model(spacing: f32) -> Result<Model, BakeError> {
                 surface.positions.iter_mut().for_each(|p| *p = stance.transform_point(*p));
                 surface.normals.iter_mut().for_each(|n| *n = stance.rotation * *n);
                 let slots = vec![Slot { material, uvs: true, ..Slot::default() }];
-                model.meshes.push(ModelMesh { name: piece.name().into(), surface, slots, origin: place, film: None });
+                let name = piece.name().into();
+                model.meshes.push(ModelMesh { name, surface, slots, origin: place, ..ModelMesh::default() });
             }
             None => model.meshes.extend(hydrants.iter().cloned().map(|mut mesh| {
                 mesh.surface.positions.iter_mut().for_each(|p| *p = stance.transform_point(*p));

@@ -168,7 +168,7 @@ pub fn views(options: &Options, size: UVec2) -> Views {
     let aspect = Some(size.x as f32 / size.y as f32);
     let themes = options.themes();
     let view = |(index, theme): (usize, &Theme)| (theme.name(), orbit(index, &theme.rows(options), aspect));
-    Views(themes.iter().enumerate().map(view).collect())
+    Views { list: themes.iter().enumerate().map(view).collect(), first: 0 }
 }
 
 /// One for each age and theme.

@@ -11,14 +11,17 @@ use bevy::{
 ///
 /// When the steps of all films do not fit into a frame, films that are large in the view of the nearest active camera
 /// (radius over distance) step first and the others are postponed. A film far away is postponed up to 16 times longer
-/// than one that fills the view. A postponed film keeps the steps that the clock owes it, up to four frames' worth of
-/// [`max_steps`](Self::max_steps), and takes them together later.
+/// than one that fills the view. A postponed film keeps the steps that the clock owes it and takes them together later,
+/// with the same result.
 ///
 /// Showing films that changed takes its time from the same budget, half of it at most. Films that do not fit are shown
 /// in a later frame, in the same order of preference; what they missed is shown together. Ageing does not wait for it.
 ///
-/// Steps that do not fit for a film that was not postponed are dropped: on a slow machine paint ages more slowly
-/// instead of making frames stutter. At least one step is taken in a frame in which any is due. Steps that were
+/// Where that is not enough, because a film would need more than [`max_steps`](Self::max_steps), because time runs out,
+/// or because postponed films are several frames' worth of steps behind, the frame is worth less age for all films
+/// alike: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
+/// [rate](super::coating::Coating::rate) beside the others. [`CoatingStatus`](super::status::CoatingStatus) tells the
+/// pace that is reached. At least one step is taken in a frame in which any is due. Steps that were
 /// [requested](super::clock::CoatingClock::request_steps) are never dropped.
 ///
 /// ```

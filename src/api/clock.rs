@@ -34,13 +34,16 @@ pub const DEFAULT_AGE_PER_SECOND: f64 = 0.02;
 #[derive(Resource, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Default, Debug, Clone, PartialEq)]
 pub struct CoatingClock {
-    /// Age gained per second of [`Time`](bevy::time::Time). 0 or more (negative speeds and NaN age nothing), default
-    /// [`DEFAULT_AGE_PER_SECOND`].
+    /// Age gained per second of [`Time`](bevy::time::Time), by films of rate 1. 0 or more, default
+    /// [`DEFAULT_AGE_PER_SECOND`]. Infinite: as fast as the [budget](super::budget::CoatingBudget) allows. Negative
+    /// speeds and NaN count as 0; a warning says so.
     pub age_per_second: f64,
-    /// Whether the clock stands still; [requested steps](Self::request_steps) are still taken. Default false.
+    /// Whether the clock stands still. Only [requested steps](Self::request_steps) are taken then; steps that films are
+    /// owed wait. Default false.
     pub paused: bool,
     /// Age at which films stop ageing, also by requested steps. Films that are older stay as they are. `None`, the
-    /// default, lets films age without end, also beyond age 1.
+    /// default, lets films age without end, also beyond age 1, and so does an infinite age. Negative ages and NaN count
+    /// as 0; a warning says so.
     pub target_age: Option<f64>,
     /// Steps [requested](Self::request_steps) since the last frame. The next frame hands them to the films and sets
     /// this to 0. Default 0.
@@ -54,8 +57,11 @@ impl Default for CoatingClock {
 }
 
 impl CoatingClock {
-    /// Requests `steps` further steps from every film that is ready, paused or not. They are spread over as many frames
-    /// as the [budget](super::budget::CoatingBudget) needs.
+    /// Requests `steps` further steps from every film that is ready, also while the clock is paused: so time can be
+    /// taken step by step. Props whose own [`Coating::paused`](super::coating::Coating::paused) is true take none.
+    ///
+    /// The steps are spread over as many frames as the [budget](super::budget::CoatingBudget) needs. While the clock
+    /// runs, they come on top of its steps.
     ///
     /// ```
     /// use bevy_coating::CoatingClock;
@@ -66,6 +72,27 @@ impl CoatingClock {
     /// ```
     pub fn request_steps(&mut self, steps: u64) {
         self.requested_steps = self.requested_steps.saturating_add(steps);
+    }
+
+    /// Returns [`CoatingClock::age_per_second`], or 0 if it is out of range.
+    pub(crate) fn checked_speed(&self) -> f64 {
+        // NaN becomes 0.
+        self.age_per_second.max(0.0)
+    }
+
+    /// Returns [`CoatingClock::target_age`], with 0 for ages out of range, and `None` for an infinite one.
+    pub(crate) fn checked_target(&self) -> Option<f64> {
+        self.target_age.filter(|&age| age != f64::INFINITY).map(|age| age.max(0.0))
+    }
+
+    /// Returns the names of the fields that are out of range, with what they count as.
+    pub(crate) fn faults(&self) -> Vec<&'static str> {
+        let is_fault = |value: f64| !(value >= 0.0);
+        let faults = [
+            (is_fault(self.age_per_second), "`age_per_second` is negative or NaN and counts as 0"),
+            (self.target_age.is_some_and(is_fault), "`target_age` is negative or NaN and counts as 0"),
+        ];
+        faults.into_iter().filter_map(|(is_fault, name)| is_fault.then_some(name)).collect()
     }
 }
 

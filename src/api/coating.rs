@@ -68,10 +68,11 @@ pub struct Coating {
     /// holds for each film.
     pub resolution: FilmResolution,
     /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 to 1,000
-    /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1.
+    /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1. If it is set out of range while the film ages, a warning
+    /// says so and the film keeps the rate that it had.
     pub rate: f64,
-    /// Whether this prop stops ageing; [requested steps](super::clock::CoatingClock::request_steps) are still taken.
-    /// Default false.
+    /// Whether this prop stands still. It takes no steps, not even
+    /// [requested](super::clock::CoatingClock::request_steps) ones, and goes on from where it was. Default false.
     pub paused: bool,
     /// Age to which the film is aged in the background before the prop shows it. 0 to 10
     /// ([`MAX_START_AGE`](super::limits::MAX_START_AGE)), default 0 (fresh).

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use bevy::{ecs::component::Component, math::Vec3};
 
+use super::{coating::Coating, error::CoatingFault, step_account::StepAccount};
 use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
 
-/// Stepping state of one film, on its entity: the settings and the environment of its steps, and the steps that it
-/// owes.
+/// Stepping state of one film, on its entity: the settings and the environment of its steps, and the steps that it is
+/// owed.
 ///
-/// The plugin inserts it when the film is ready and keeps it up to date with the [`Coating`](super::coating::Coating).
+/// The plugin inserts it when the film is ready and keeps it up to date with the [`Coating`]: quality, rate and pause
+/// in each frame before the first step is taken, settings whenever they change.
 #[derive(Component, Clone, Debug)]
 #[component(clone_behavior = Ignore)]
 pub struct FilmPace {
@@ -19,18 +21,14 @@ pub struct FilmPace {
     pub quality: SolverQuality,
     /// Factor on the speed of the clock.
     pub rate: f64,
-    /// Whether the film takes no steps but requested ones.
+    /// Whether the film takes no steps, not even requested ones.
     pub paused: bool,
     /// Gravity and weather in the film's space, renewed every frame.
     pub environment: Environment,
-    /// Steps that the clock owes the film; the fraction is carried over to the next frame.
-    pub(crate) owed: f64,
-    /// Steps that were requested and not taken yet.
-    pub(crate) requested: u64,
+    /// Steps that the film is owed, and those that it has taken in this frame.
+    pub(crate) account: StepAccount,
     /// Steps planned in this frame.
     pub(crate) planned: u64,
-    /// Steps taken in this frame.
-    pub(crate) taken: u64,
     /// Whether the film has steps to take, but waits until its exposure to rain and sun is known.
     pub(crate) held: bool,
     /// Whether the film takes the step that is under way.
@@ -56,10 +54,8 @@ impl FilmPace {
             rate: 1.0,
             paused: false,
             environment: Environment::default(),
-            owed: 0.0,
-            requested: 0,
+            account: StepAccount::default(),
             planned: 0,
-            taken: 0,
             held: false,
             due: false,
             cracked,
@@ -68,6 +64,16 @@ impl FilmPace {
             postponed: false,
             cost: 0,
         }
+    }
+
+    /// Takes over the pause, the quality and the rate of its coating.
+    ///
+    /// # Errors
+    /// [`CoatingFault::Field`] if the rate is out of range; then the film keeps the rate that it has.
+    pub(crate) fn follow(&mut self, coating: &Coating) -> Result<(), CoatingFault> {
+        (self.paused, self.quality) = (coating.paused, coating.quality);
+        self.rate = coating.checked_rate()?;
+        Ok(())
     }
 
     /// Returns whether the film takes the step that is under way. Systems in

@@ -27,7 +27,8 @@ impl Coating {
     ///
     /// assert_eq!(Coating::default().with_rate(0.2).validate(), Ok(()));
     /// let fault = Coating::default().with_rate(-1.0).validate();
-    /// assert_eq!(fault.map_err(|fault| fault.to_string()), Err("`Coating::rate` is -1, but must be 0 to 1000".into()));
+    /// let text = fault.expect_err("a negative rate").to_string();
+    /// assert_eq!(text, "`Coating::rate` is -1, but must be 0 to 1000");
     /// ```
     pub fn validate(&self) -> Result<(), CoatingFault> {
         let steps = f64::from(self.steps_per_age);

@@ -74,6 +74,8 @@ pub(crate) struct FilmSource {
     pub origin: Vec3,
     /// Area of the meshes, in square metres.
     pub area: f64,
+    /// Whether each face belongs to a slot that has left the film; empty while none has.
+    pub hidden: Vec<bool>,
     /// Fields of a coating with which no other film could be built, so that it is not tried again and again.
     pub refused: Option<FilmKey>,
 }

@@ -20,5 +20,6 @@ pub(crate) mod seed;
 pub(crate) mod shelter;
 pub(crate) mod stain_display;
 pub(crate) mod status;
+pub(crate) mod step_account;
 pub(crate) mod system_sets;
 pub(crate) mod weather;

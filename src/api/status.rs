@@ -44,4 +44,8 @@ pub struct CoatingStatus {
     pub youngest: f64,
     /// Age of the oldest film; 0 without films.
     pub oldest: f64,
+    /// Age that a film of rate 1 gained per second, averaged over half a second. It is less than
+    /// [`CoatingClock::age_per_second`](super::clock::CoatingClock::age_per_second) where the budget is too small, and
+    /// 0 while no film ages.
+    pub age_per_second: f64,
 }

@@ -38,6 +38,11 @@ impl FaceSlots {
         }
     }
 
+    /// Returns whether each face is in a slot that is hidden.
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.slots.iter().map(|&slot| self.hidden[slot as usize]).collect()
+    }
+
     /// Returns whether `f` is in a slot that is hidden.
     pub fn is_hidden(&self, f: FaceId) -> bool {
         self.hidden[self.slot(f)]

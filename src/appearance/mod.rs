@@ -141,6 +141,11 @@ impl FilmAppearance {
         self.face_slots.hide(slot);
     }
 
+    /// Returns whether each face is in a slot that is [hidden](Self::hide_slot).
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.face_slots.hidden_faces()
+    }
+
     /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
     ///
     /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's count as a change of everything.

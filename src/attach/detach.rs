@@ -127,11 +127,15 @@ fn drop_slot(world: &mut World, film: Entity, slot: Entity) {
     hide_slot(world, film, number);
 }
 
-/// Hides the faces of slot `number` of a film: they are neither drawn nor do they age.
+/// Hides the faces of slot `number` of a film: nothing is drawn or told of them any more.
 pub(super) fn hide_slot(world: &mut World, film: Entity, number: usize) {
     let Ok(mut entity) = world.get_entity_mut(film) else { return };
     if let Some(mut display) = entity.get_mut::<FilmDisplay>() {
         display.hide_slot(number);
+        let hidden = display.hidden_faces();
+        if let Some(mut source) = entity.get_mut::<FilmSource>() {
+            source.hidden = hidden;
+        }
     }
     if let Some(mut changes) = entity.get_mut::<DisplayChanges>() {
         (changes.topology, changes.exposure) = (true, true);

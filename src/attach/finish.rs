@@ -86,7 +86,8 @@ fn put_on(
     let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
     let triangles = mesh.topology.face_count();
     let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
-    (pace.rate, pace.paused, pace.quality) = (coating.rate, coating.paused, coating.quality);
+    // A rate that has gone out of range meanwhile is told before the first step.
+    let _ = pace.follow(coating);
     pace.bounds = crate::stepping::bounds(&mesh.geometry, origin);
     shelter.choice = coating.shelter;
     let handles = display.put_on(assets);
@@ -99,7 +100,7 @@ fn put_on(
     }
     let FilmBuild { root, key, seed, scale, area, .. } = *build;
     let slots = std::mem::take(&mut build.slots);
-    let source = FilmSource { key, seed, slots, scale, origin, area, refused: None };
+    let source = FilmSource { key, seed, slots, scale, origin, area, hidden: Vec::new(), refused: None };
     commands
         .entity(film)
         .try_remove::<FilmBuild>()

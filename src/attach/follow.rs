@@ -8,7 +8,7 @@ use bevy::{
         change_detection::{DetectChanges, Ref},
         entity::Entity,
         message::MessageReader,
-        query::{Added, Changed},
+        query::Changed,
         system::{Query, Res},
     },
     log::warn,
@@ -24,15 +24,14 @@ use crate::{
     shelter::FilmShelter,
 };
 
-/// Hands changed settings, rates, pauses, qualities and shelters to the films. New films take over what changed while
-/// they were built.
+/// Hands changed settings and shelters to the films. New films take over what changed while they were built. Rates,
+/// pauses and qualities are handed over right before the steps of a frame.
 pub(super) fn follow_coatings(
     changed: Query<Entity, Changed<Coating>>,
     coatings: Query<&Coating>,
     mut reloaded: MessageReader<AssetEvent<CoatingSettings>>,
     assets: Option<Res<Assets<CoatingSettings>>>,
-    new: Query<(), Added<FilmPace>>,
-    mut films: Query<(Entity, Ref<CoatedBy>, &mut FilmPace, &mut FilmShelter)>,
+    mut films: Query<(Ref<CoatedBy>, &mut FilmPace, &mut FilmShelter)>,
 ) {
     let reloaded: Vec<_> = reloaded
         .read()
@@ -41,18 +40,12 @@ pub(super) fn follow_coatings(
             _ => None,
         })
         .collect();
-    if changed.is_empty() && reloaded.is_empty() && new.is_empty() {
-        return;
-    }
-    for (film, coated_by, mut pace, mut shelter) in &mut films {
+    for (coated_by, mut pace, mut shelter) in &mut films {
         let Ok(coating) = coatings.get(coated_by.0) else { continue };
         let from_file = matches!(&coating.settings, SettingsSource::Asset(handle) if reloaded.contains(&handle.id()));
-        if !changed.contains(coated_by.0) && !from_file && !new.contains(film) && !coated_by.is_changed() {
+        if !changed.contains(coated_by.0) && !from_file && !pace.is_added() && !coated_by.is_changed() {
             continue;
         }
-        pace.paused = coating.paused;
-        pace.rate = coating.rate;
-        pace.quality = coating.quality;
         shelter.choose(coating.shelter);
         let settings = match &coating.settings {
             SettingsSource::Inline(settings) => Some(settings),

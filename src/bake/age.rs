@@ -6,6 +6,7 @@ use super::{
     baked::Baked,
     coat::{Coated, coat},
     error::BakeError,
+    leave::leave_alone,
     model::Model,
     options::BakeOptions,
     parallel,
@@ -13,6 +14,7 @@ use super::{
     shelter::shelter,
     stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats},
     stopwatch::Stopwatch,
+    warning::BakeWarning,
 };
 use crate::sim::{FilmMeasures, FilmState, StageTimes};
 
@@ -32,7 +34,8 @@ use crate::sim::{FilmMeasures, FilmState, StageTimes};
 /// ```
 ///
 /// # Errors
-/// [`BakeError::Options`] if an option is out of its range, [`BakeError::Build`] if no film can be made of a mesh,
+/// [`BakeError::Options`] if an option is out of its range, [`BakeError::AllLeftAlone`] if everything is glass or
+/// excluded, [`BakeError::Build`] if no film can be made of a mesh,
 /// [`BakeError::Broken`] if a film is not sound.
 pub fn bake(
     model: Model,
@@ -40,12 +43,15 @@ pub fn bake(
     mut stopwatch: Stopwatch,
     progress: &dyn Progress,
 ) -> Result<Baked, BakeError> {
-    let Model { origin, copyright, meshes, materials, mut warnings } = model;
     options.validate()?;
-    let input = InputStats::of(&meshes);
+    let input = InputStats::of(&model.meshes);
+    let mut model = model;
+    let left = leave_alone(&mut model, &options.exclude)?;
+    let Model { origin, copyright, meshes, materials, mut warnings, carried, .. } = model;
     let coated = stopwatch.build(|| coat(&origin, meshes, options))?;
     let Coated { props, mut films, warnings: built } = coated;
     warnings.extend(built);
+    BakeWarning::gather(&mut warnings);
 
     stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
@@ -70,7 +76,7 @@ pub fn bake(
     };
     let digest = hasher.finalize().to_hex().to_string();
     let stats = Stats { schema: STATS_SCHEMA, input, film, run, seconds: stopwatch.seconds(), timeline, digest };
-    Ok(Baked { origin, copyright, props, films, materials, warnings, stopwatch, stats })
+    Ok(Baked { origin, copyright, props, films, materials, warnings, carried, left, stopwatch, stats })
 }
 
 /// Ages of the timeline: every twentieth up to `age`, and `age` itself.

@@ -1,6 +1,13 @@
 //! Holds an aged model.
 
-use super::{coat::Prop, model::MaterialLibrary, stats::Stats, stopwatch::Stopwatch, warning::BakeWarning};
+use super::{
+    carried::Carried,
+    coat::Prop,
+    model::{MaterialLibrary, ModelMesh},
+    stats::Stats,
+    stopwatch::Stopwatch,
+    warning::BakeWarning,
+};
 use crate::sim::FilmState;
 
 /// An aged model: props, their films and figures.
@@ -28,8 +35,12 @@ pub struct Baked {
     pub films: Vec<FilmState>,
     /// The model's materials.
     pub materials: MaterialLibrary,
-    /// Everything that was left out, changed or put right so far.
+    /// Everything that was left out, changed or put right so far, one warning a kind.
     pub warnings: Vec<BakeWarning>,
+    /// Document that the model was read from.
+    pub carried: Carried,
+    /// Meshes without a document that are left as they are: glass, and what was excluded.
+    pub(super) left: Vec<ModelMesh>,
     /// Time spent.
     pub(super) stopwatch: Stopwatch,
     /// All figures but the seconds, which run on.

@@ -6,7 +6,7 @@ use bevy_math::Vec3;
 
 use super::{
     error::{BakeError, BrokenFilm},
-    model::{ModelMesh, Slot},
+    model::{ModelMesh, Place, Slot},
     options::{BakeOptions, Resolution},
     parallel,
     warning::BakeWarning,
@@ -28,6 +28,8 @@ pub struct Prop {
     pub origin: Vec3,
     /// Attributes and material of each slot of the surface.
     pub slots: Vec<Slot>,
+    /// Place in the document that the model was read from.
+    pub place: Option<Place>,
     /// The film at rest.
     pub built: BuiltFilm,
     /// Seed of the film. A prop alone has the seed of the options; of several props, each has one that follows from it
@@ -47,7 +49,8 @@ pub struct Coated {
 }
 
 /// Makes a fresh film for every mesh: the first step of [`bake`](super::bake()), for tools that do the ageing
-/// themselves. Meshes that are all slivers are left out with a warning, unless there is nothing else. `origin` is the
+/// themselves. Meshes that are all slivers, or of no possible size, are left out with a
+/// warning, unless there is nothing else. `origin` is the
 /// name of the input in messages.
 ///
 /// ```
@@ -84,16 +87,18 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
     let mut coated = Coated::default();
     let mut nothing = None;
     for Job { mesh, result, seed, .. } in jobs {
-        let ModelMesh { name, surface, origin: place, slots, .. } = mesh;
+        let ModelMesh { name, surface, origin: at, slots, place, .. } = mesh;
         let broken = |source| BakeError::Broken { origin: origin.into(), mesh: name.clone(), source };
         match result {
             Some(Ok((built, film))) => {
                 let warnings = built.warnings.iter().cloned();
                 coated.warnings.extend(warnings.map(|warning| BakeWarning::Build { mesh: name.clone(), warning }));
                 coated.films.push(film.ok_or_else(|| broken(BrokenFilm::NotManifold))?);
-                coated.props.push(Prop { name, surface, origin: place, slots, built, seed });
+                coated.props.push(Prop { name, surface, origin: at, slots, place, built, seed });
             }
-            Some(Err(source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. }))) => {
+            Some(Err(
+                source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. } | BuildError::Size { .. }),
+            )) => {
                 coated.warnings.push(BakeWarning::LeftOut { mesh: name.clone(), cause: source.clone() });
                 nothing = Some(BakeError::Build { origin: origin.into(), mesh: name, source });
             }

@@ -5,7 +5,7 @@ use std::{io, path::PathBuf};
 use super::{
     gltf::GltfError,
     limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES},
-    obj_error::ObjError,
+    obj::ObjError,
 };
 use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
 
@@ -50,6 +50,12 @@ pub enum BakeError {
         /// Name of the input.
         origin: String,
     },
+    /// Everything is glass or excluded.
+    #[error("{origin}: all of it is glass (alpha-blended or transmissive) or excluded, so there is nothing to age")]
+    AllLeftAlone {
+        /// Name of the input.
+        origin: String,
+    },
     /// The options are out of their ranges.
     #[error(transparent)]
     Options(#[from] OptionsError),
@@ -78,6 +84,14 @@ pub enum BakeError {
     TooLarge {
         /// Name of the input.
         origin: String,
+    },
+    /// A file to be written is one that is read, or another one that is written.
+    #[error("{}: is the same file as {}, which is needed too; choose another name", path.display(), other.display())]
+    Overlap {
+        /// The file to be written.
+        path: PathBuf,
+        /// Path by which it is needed as well.
+        other: PathBuf,
     },
     /// A file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]

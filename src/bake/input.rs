@@ -12,8 +12,7 @@ use super::{
     images::Images,
     limits::MAX_TRIANGLES,
     model::{Model, ModelMesh, Slot},
-    obj,
-    obj_error::ObjError,
+    obj::{self, ObjError},
 };
 use crate::remesh::sample;
 
@@ -114,7 +113,7 @@ impl Input {
                 let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
                 match extension.as_deref() {
                     Some("glb" | "gltf") => gltf::read_file(path, images)?,
-                    Some("obj") => obj::read_file(path)?,
+                    Some("obj") => obj::read_file(path, images)?,
                     _ if !path.exists() => {
                         let source = std::io::ErrorKind::NotFound.into();
                         return Err(BakeError::Read { path: path.clone(), source });
@@ -125,6 +124,9 @@ impl Input {
             Self::Piece(piece, triangles) => make_piece(*piece, *triangles, seed, &self.to_string())?,
         };
         model.origin = self.to_string();
+        if let Self::File(path) = self {
+            model.files.push(path.clone());
+        }
         if model.meshes.iter().all(|mesh| mesh.surface.triangles.is_empty()) {
             return Err(BakeError::Empty { origin: model.origin });
         }
@@ -144,7 +146,8 @@ impl fmt::Display for Input {
 
 impl Model {
     /// Reads a model from the bytes of a .glb or .gltf file. Buffers and images that are files of their own are looked
-    /// up in `folder` and below; without a folder they are refused.
+    /// up relative to `folder`. Without a folder, or with an address that is no relative path, buffers are refused and
+    /// images left where they are, with a warning.
     ///
     /// ```
     /// use bevy_coating::bake::{Images, Model};
@@ -178,20 +181,23 @@ impl Model {
         gltf::read(bytes, folder, images)
     }
 
-    /// Reads a model from the bytes of an .obj file: one mesh called `name`, without materials.
+    /// Reads a model from the bytes of an .obj file: one mesh called `name`. Its .mtl files and their images are looked
+    /// up relative to `folder`; without a folder its materials are plain paint of their names, with a warning.
     ///
     /// ```
-    /// use bevy_coating::bake::Model;
+    /// use bevy_coating::bake::{Images, Model};
     ///
-    /// let model = Model::from_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square")?;
+    /// let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n";
+    /// let model = Model::from_obj(text, "square", None, Images::Load)?;
+    /// assert_eq!(model.materials.materials[0]["name"], "red");
     /// assert_eq!(model.meshes[0].surface.triangles, [[0, 1, 2], [0, 2, 3]]);
     /// # Ok::<(), bevy_coating::bake::ObjError>(())
     /// ```
     ///
     /// # Errors
     /// [`ObjError`] if the bytes are no usable OBJ.
-    pub fn from_obj(bytes: &[u8], name: &str) -> Result<Self, ObjError> {
-        obj::read(bytes, name)
+    pub fn from_obj(bytes: &[u8], name: &str, folder: Option<&Path>, images: Images) -> Result<Self, ObjError> {
+        obj::read(bytes, name, folder, images)
     }
 }
 

@@ -40,47 +40,60 @@
 //!
 //! # What is kept of a model
 //!
-//! Materials go on as the JSON they are, with extensions that nobody here knows. Base colour, metalness, roughness and
-//! normals are baked together with the stains where stains are written into textures. Cameras, lights, animations and
-//! skins are left out; skinned and morphed meshes are aged in their bind pose. Each of these is a [`BakeWarning`].
+//! The aged model begins with the document that was read ([`Carried`]): nodes with their pivots, animations, cameras,
+//! lights, extras, extensions that nobody here knows, and names stay as they are, and every index in it holds. Each
+//! coated node gets a mesh of its own, in the node's space. Base colour, metalness, roughness and normals are baked
+//! together with the stains where stains are written into textures. Glass, primitives of points and lines, and what
+//! [`BakeOptions::exclude`] names are left as they are. What must go, such as morph targets, is named in one
+//! [`BakeWarning`] a kind.
 
 mod age;
 mod baked;
+mod carried;
 mod coat;
 mod dump;
 mod error;
+mod files;
 mod glb;
 mod gltf;
 mod images;
 mod input;
+mod leave;
 mod limits;
+mod media;
 mod model;
+mod name_pattern;
 mod obj;
-mod obj_error;
 mod options;
 mod output;
 mod parallel;
+mod printable;
 mod progress;
 mod shelter;
 mod stain_output;
 mod stats;
 mod stopwatch;
+mod temporary;
+mod texture_refs;
 mod textures;
 mod warning;
 mod write;
 
 pub use age::bake;
 pub use baked::Baked;
+pub use carried::Carried;
 pub use coat::{Coated, Prop, coat};
 pub use error::{BakeError, BrokenFilm, OptionsError};
 pub use gltf::GltfError;
 pub use images::Images;
 pub use input::{Input, InputError, TestPiece};
 pub use limits::{MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, TEXTURE_SIZES};
-pub use model::{Image, MaterialLibrary, Model, ModelMesh, Slot};
-pub use obj_error::ObjError;
+pub use model::{Image, Instance, MaterialLibrary, Model, ModelMesh, Place, Slot};
+pub use name_pattern::NamePattern;
+pub use obj::ObjError;
 pub use options::{BakeOptions, Resolution};
 pub use output::StagedFiles;
+pub use printable::Printable;
 pub use progress::Progress;
 pub use stain_output::StainOutput;
 pub use stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats};

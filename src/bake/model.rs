@@ -1,9 +1,11 @@
 //! Holds a model as it was read: surfaces in scene space, and its materials.
 
-use bevy_math::{DVec3, Vec3};
+use std::{path::PathBuf, sync::Arc};
+
+use bevy_math::{DMat4, DVec3, Quat, Vec3};
 use serde_json::Value;
 
-use super::warning::BakeWarning;
+use super::{carried::Carried, warning::BakeWarning};
 use crate::{remesh::BuiltFilm, surface::Surface};
 
 /// Everything that a file holds and ageing needs. Read it from a file with [`Input::read`](super::Input::read), from
@@ -20,6 +22,11 @@ pub struct Model {
     pub materials: MaterialLibrary,
     /// Everything that was left out or changed.
     pub warnings: Vec<BakeWarning>,
+    /// Document that the model was read from, for all that ageing does not change.
+    pub carried: Carried,
+    /// Files that the model is made of, as far as it comes from files: outputs must not take their places
+    /// ([`StagedFiles::guard`](super::StagedFiles::guard)).
+    pub files: Vec<PathBuf>,
 }
 
 /// Mesh of one node: one connected prop to the paint.
@@ -36,6 +43,36 @@ pub struct ModelMesh {
     pub slots: Vec<Slot>,
     /// Film that comes with the mesh, as test pieces have one; `None`: one is built.
     pub film: Option<BuiltFilm>,
+    /// Place in the document that the model was read from; `None`: the aged mesh gets a node of its own.
+    pub place: Option<Place>,
+}
+
+/// Place of a mesh in the document that a model was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Index of the node.
+    pub node: usize,
+    /// Index of the node's mesh.
+    pub mesh: usize,
+    /// Index in the mesh of each slot's primitive; `None` for those that are left as they are.
+    pub primitives: Vec<Option<usize>>,
+    /// From the mesh's own space into scene space.
+    pub transform: DMat4,
+    /// Instance of the node that this is, where the node has several (extension `EXT_mesh_gpu_instancing`).
+    pub instance: Option<Instance>,
+}
+
+/// One of several instances of a node, in the node's space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Number of the instance, from 0.
+    pub index: usize,
+    /// Translation.
+    pub translation: Vec3,
+    /// Rotation, of unit length.
+    pub rotation: Quat,
+    /// Scale.
+    pub scale: Vec3,
 }
 
 /// Moves positions to around the middle of their bounding box, and returns that too.
@@ -95,9 +132,9 @@ pub struct Image {
     pub name: Option<String>,
     /// Media type: `image/png`, `image/jpeg`, or one that an extension allows.
     pub mime_type: String,
-    /// Bytes of the encoded image.
-    pub bytes: Vec<u8>,
-    /// Extensions and extras of the image.
+    /// Bytes of the encoded image; empty if they cannot be read. Images that share them in the file share them here.
+    pub bytes: Arc<[u8]>,
+    /// Extensions and extras of the image, and its `uri` if its bytes cannot be read.
     pub rest: serde_json::Map<String, Value>,
 }
 

@@ -3,6 +3,7 @@
 use super::{
     error::OptionsError,
     limits::{MAX_AGE, MAX_STEPS_PER_AGE},
+    name_pattern::NamePattern,
 };
 use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
 
@@ -54,6 +55,9 @@ pub struct BakeOptions {
     pub seed: u64,
     /// Gravity and weather in scene space; default still air and dry weather, with gravity along -y.
     pub environment: Environment,
+    /// Names of nodes, meshes and materials that are left as they are, beside glass, which always is; default none. See
+    /// [`NamePattern`] for the wildcards.
+    pub exclude: Vec<NamePattern>,
 }
 
 impl Default for BakeOptions {
@@ -67,6 +71,7 @@ impl Default for BakeOptions {
             quality: SolverQuality::default(),
             seed: 0,
             environment: Environment::default(),
+            exclude: Vec::new(),
         }
     }
 }

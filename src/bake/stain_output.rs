@@ -29,8 +29,8 @@ impl StainOutput {
         }
     }
 
-    /// Returns the same for a prop that has `share` of the largest one's surface: its textures are smaller, and their
-    /// texels as large.
+    /// Returns the same for a prop that has `share` of the surface of all props in the file: its textures are smaller,
+    /// so that all together have about as many texels as those of one prop alone.
     pub(super) fn for_share(self, share: f32) -> Self {
         let Self::Textures(size) = self else { return self };
         let wanted = (size as f32 * share.clamp(0.0, 1.0).sqrt()).ceil() as u32;
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn props_of_one_file_have_texels_of_one_size() {
+    fn props_of_one_file_share_its_texels() {
         let size = |share: f32| StainOutput::Textures(1024).for_share(share);
         assert_eq!([size(1.0), size(0.25), size(1e-6)], [1024, 512, 64].map(StainOutput::Textures));
         assert_eq!(StainOutput::Textures(100).for_share(1.0), StainOutput::Textures(100));

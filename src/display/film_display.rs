@@ -156,6 +156,11 @@ impl FilmDisplay {
         }
     }
 
+    /// Returns whether each face is in a slot that is hidden.
+    pub fn hidden_faces(&self) -> Vec<bool> {
+        self.appearance.hidden_faces()
+    }
+
     /// Returns whether `entity` draws the film's backs or metal.
     pub fn has_part(&self, #[cfg_attr(not(feature = "render"), expect(unused_variables))] entity: Entity) -> bool {
         #[cfg(feature = "render")]

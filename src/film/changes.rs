@@ -18,6 +18,8 @@ pub struct Debris {
     pub area: f32,
     /// Number of faces of the piece.
     pub faces: u32,
+    /// Lowest face of the piece.
+    pub face: FaceId,
 }
 
 /// Changes of one step. Each list is in the order in which its changes happened.

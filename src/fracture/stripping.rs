@@ -111,5 +111,6 @@ pub(super) fn debris(mesh: &FilmMesh, faces: &[FaceId]) -> Debris {
         normal: normal.normalize_or_zero(),
         area,
         faces: faces.len() as u32,
+        face: faces.iter().copied().min().unwrap_or(FaceId(0)),
     }
 }

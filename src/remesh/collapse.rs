@@ -3,7 +3,7 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::work_mesh::{SurfacePoint, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// Limits that a collapse must respect.
@@ -25,14 +25,18 @@ pub(super) struct CollapseLimits {
 
 /// Collapses short edges, the shortest first.
 pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) {
-    let mut short: Vec<(f32, HalfEdgeId)> =
-        mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(length, _)| length < limits.shortest).collect();
+    let mut short: Vec<(f32, HalfEdgeId)> = mesh
+        .topology
+        .edges()
+        .map(|h| (mesh.sized_length(h), h))
+        .filter(|&(length, _)| length < limits.shortest)
+        .collect();
     short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, h) in short {
         if mesh.topology.live_faces() <= limits.fewest_faces {
             return;
         }
-        if mesh.topology.is_live(h.face()) && mesh.length(h) < limits.shortest {
+        if mesh.topology.is_live(h.face()) && mesh.sized_length(h) < limits.shortest {
             try_collapse(mesh, h, limits);
         }
     }
@@ -150,7 +154,9 @@ fn keeps_shape(mesh: &WorkMesh, h: HalfEdgeId, position: Vec3, limits: CollapseL
     let longest = limits.longest.max(mesh.length(h));
     let too_long = |v: VertexId, other: VertexId| {
         mesh.position(v) != position
-            && mesh.topology.neighbours(v).any(|n| n != other && mesh.position(n).distance(position) > longest)
+            && mesh.topology.spokes(v).any(|(e, n)| {
+                n != other && mesh.position(n).distance(position) > longest.max(limits.longest * mesh.stretch(e))
+            })
     };
     if too_long(a, b) || too_long(b, a) {
         return false;
@@ -180,7 +186,8 @@ fn keeps_close(
         [mesh.topology.origin(h), mesh.topology.target(h)].into_iter().any(|v| {
             mesh.topology.ring(v).filter(|e| !gone.contains(&Some(e.face()))).any(|e| {
                 let far = [mesh.topology.target(e), mesh.topology.opposite(e)].map(|v| mesh.position(v));
-                distance_to_triangle(p, [position, far[0], far[1]]) <= 1.5 * limits.stray
+                distance_to_triangle(p, [position, far[0], far[1]])
+                    <= 1.5 * limits.stray * mesh.reference.closeness * mesh.scale(e.face())
             })
         })
     };
@@ -199,8 +206,7 @@ fn keeps_close(
                     (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
                     _ => mesh.corner(e).triangle,
                 };
-                let middle = position.midpoint(mesh.position(n));
-                mesh.stray_at(middle, start) <= limits.stray.max(mesh.stray(e))
+                mesh.stray_between(position, mesh.position(n), start, e.face()) <= limits.stray.max(mesh.stray(e))
             })
     })
 }
@@ -210,6 +216,7 @@ fn keeps_close(
 fn collapse(mesh: &mut WorkMesh, h: HalfEdgeId) -> VertexId {
     let (a, b) = (mesh.topology.origin(h), mesh.topology.target(h));
     let twin = mesh.topology.twin(h);
+    count_edit();
     let leaving: Vec<HalfEdgeId> = mesh.topology.ring(a).collect();
     let mut anchors = vec![];
     for e in leaving {

@@ -27,6 +27,42 @@ const LOW_POLY_HEIGHT: f32 = 1.5;
 /// A sharp edge at a face with a side longer than this, in target edges, is never taken for noise.
 const NOISE_FACE: f32 = 1.2;
 
+/// Height of a face over a crease below which the crease may be given up, in target edges.
+const NARROW: f32 = 0.75;
+
+/// How closely the film follows its prop. Where the features need more triangles than there may be, the film is less
+/// faithful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fidelity {
+    /// It follows the facets of low-poly props, to their corners.
+    Facets,
+    /// It follows borders, seams and creases, and runs smoothly over facets that are small for it.
+    Creases,
+    /// It follows borders, seams, and creases between faces that are large for it.
+    Shape,
+}
+
+impl Fidelity {
+    /// Returns the next less faithful way, if there is one.
+    pub fn next(self) -> Option<Self> {
+        match self {
+            Self::Facets => Some(Self::Creases),
+            Self::Creases => Some(Self::Shape),
+            Self::Shape => None,
+        }
+    }
+}
+
+/// Size of the film for which features are found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    /// Edge length.
+    pub target: f32,
+    /// Approximate number of triangles.
+    pub triangles: f32,
+    pub fidelity: Fidelity,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Free,
@@ -44,18 +80,18 @@ pub(super) struct Features {
 }
 
 impl Features {
-    /// Classifies the edges for a film of edge length `target` and about `triangles` faces.
+    /// Classifies the edges for a film of this scale.
     pub fn find(
         surface: &Surface,
         clean: &CleanSurface,
         topology: &Topology,
         normals: &[Vec3],
-        target: f32,
-        triangles: f32,
+        Scale { target, triangles, fidelity }: Scale,
     ) -> Self {
         let attributes = Attributes::new(surface, clean);
         let positions = &clean.positions;
-        let low_poly = clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
+        let low_poly =
+            fidelity == Fidelity::Facets && clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
         let slot = |f: FaceId| {
             clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
         };
@@ -65,29 +101,37 @@ impl Features {
                 [topology.origin(h), topology.target(h), topology.opposite(h)].map(|v| positions[v.index()]);
             (b - a).cross(c - a).length() / (b - a).length().max(f32::MIN_POSITIVE)
         };
+        // Where only the shape is kept, creases may not divide what is narrower than the film's edges.
+        let is_narrow =
+            |h: HalfEdgeId, t: HalfEdgeId| fidelity == Fidelity::Shape && height(h).min(height(t)) < NARROW * target;
         let is_small = |f: FaceId| {
             f.half_edges().into_iter().all(|h| {
                 let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);
                 a.distance(b) < NOISE_FACE * target
             })
         };
+        // Coarser films have no vertex at every end of an edge that is short for them.
+        let is_long = |h: HalfEdgeId| {
+            let [a, b] = [topology.origin(h), topology.target(h)].map(|v| positions[v.index()]);
+            fidelity == Fidelity::Facets || a.distance(b) >= target
+        };
         let mut kinds = vec![Kind::Free; 3 * topology.face_slots()];
         for h in topology.edges() {
             let Some(t) = topology.twin(h) else {
-                let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target;
+                let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target && is_long(h);
                 kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
                 continue;
             };
             let (f, g) = (h.face(), t.face());
             let cosine = normals[f.index()].dot(normals[g.index()]);
-            let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target;
+            let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target && is_long(h);
             let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t, exact);
             let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t, target);
             let kind = if exact && (seam || uneven()) {
                 Kind::Exact
             } else if seam {
                 Kind::Line
-            } else if cosine < CREASE {
+            } else if cosine < CREASE && !is_narrow(h, t) {
                 if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
             } else {
                 Kind::Free

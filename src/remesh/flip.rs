@@ -2,8 +2,12 @@
 
 use bevy_math::Vec3;
 
-use super::work_mesh::{FOLD, WorkMesh, quality};
+use super::work_mesh::{FOLD, WorkMesh, count_edit, quality};
 use crate::film::HalfEdgeId;
+
+/// Cosine of the angle between two faces above which the edge between them is flipped only if it comes closer to the
+/// surface: about 15 degrees.
+const BENT: f32 = 0.966;
 
 /// Flips edges until no flip improves the triangles. Features are never flipped.
 pub(super) fn flip_edges(mesh: &mut WorkMesh) {
@@ -55,14 +59,25 @@ fn flip_if(mesh: &mut WorkMesh, h: HalfEdgeId, wanted: fn([Vec3; 4]) -> bool) ->
     let (f, g) = (mesh.area_vector(h.face()), mesh.area_vector(t.face()));
     let mean = (f + g).normalize_or_zero();
     let upright = |n: Vec3| n.dot(mean) > FOLD * n.length();
-    if !upright((a - d).cross(c - d)) || !upright((b - c).cross(d - c)) {
+    if !upright((c - d).cross(a - d)) || !upright((d - c).cross(b - c)) {
         return false;
     }
     if topology.edge_between(corners[2], corners[3]).is_some() {
         return false;
     }
+    let is_bent = f.dot(g) < BENT * f.length() * g.length();
+    if !is_bent {
+        flip(mesh, h);
+        return true;
+    }
+    // The new edge may not cut through the bend: a round bar would lose its shape, edge by edge.
+    let before = mesh.stray(h);
     flip(mesh, h);
-    true
+    let closer = mesh.stray(h) <= before;
+    if !closer {
+        flip(mesh, h);
+    }
+    closer
 }
 
 /// Returns whether the two angles opposite the edge sum to more than 180 degrees and a flip raises the lower quality of
@@ -84,6 +99,7 @@ fn is_better_delaunay([a, b, c, d]: [Vec3; 4]) -> bool {
 /// Turns the edge a-b between (a, b, c) and (b, a, d) into the edge d-c. Face ids stay.
 fn flip(mesh: &mut WorkMesh, h: HalfEdgeId) {
     let Some(t) = mesh.topology.twin(h) else { return };
+    count_edit();
     let [a, b] = [mesh.topology.origin(h), mesh.topology.target(h)];
     let [c, d] = [mesh.topology.opposite(h), mesh.topology.opposite(t)];
     let outer = [h.next(), h.previous(), t.next(), t.previous()].map(|e| (mesh.topology.twin(e), mesh.chain(e)));

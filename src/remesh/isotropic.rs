@@ -10,14 +10,18 @@ use rand_chacha::ChaCha8Rng;
 
 use super::{
     collapse::{self, CollapseLimits},
+    features::{Fidelity, Scale},
     film::{BuiltFilm, MAX_FILM_TRIANGLES},
-    flip, polish,
+    flip,
+    loss::ShapeLoss,
+    polish,
     reference::Reference,
     relax::{self, Relaxation},
     resolution::Target,
     sites,
+    sizing::LEAST_PART,
     split::{self, SplitLimits},
-    work_mesh::WorkMesh,
+    work_mesh::{WorkMesh, quality},
 };
 use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
 
@@ -56,6 +60,17 @@ const COUNT_TOLERANCE: f64 = 0.05;
 /// The same share if the target is an edge length, which fixes the count less sharply.
 const LENGTH_TOLERANCE: f64 = 0.25;
 
+/// Factor of the distances from the surface that are allowed where the film would lose too much of a round shape.
+const CLOSER: f32 = 0.4;
+/// Largest number of triangles of a film that follows its features, over the number asked for.
+const MOST: f64 = 1.5;
+/// Number of faces at which splitting stops, over the number asked for.
+const MOST_WHILE_SPLITTING: f64 = 4.0;
+/// Quality below which a triangle is a needle, about seventeen times as long as wide.
+const NEEDLE: f32 = 0.1;
+/// Largest share of needles in the film's area that facets may force on it.
+const MOST_NEEDLES: f64 = 0.25;
+
 /// Returns the side of the equilateral triangle with this area.
 pub(super) fn edge_of_area(area: f64) -> f32 {
     (area * 4.0 / 3.0_f64.sqrt()).sqrt() as f32
@@ -85,21 +100,79 @@ pub(super) fn remesh(
     if count > MAX_FILM_TRIANGLES as f64 {
         return Err(BuildError::TooLarge { found: count as usize, limit: MAX_FILM_TRIANGLES });
     }
-    let reference = Reference::new(surface, clean, length, count as f32);
-    let mut mesh = WorkMesh::new(&reference);
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    run(&mut mesh, target, length, count, &mut rng);
-
-    let mut film = sites::finish(&mesh, surface, clean);
-    let found = film.triangles.len();
+    let mut fidelity = Fidelity::Facets;
+    let (mut film, starved) = loop {
+        let scale = Scale { target: length, triangles: count as f32, fidelity };
+        let mut reference = Reference::new(surface, clean, scale);
+        let build = |reference: &Reference| {
+            let mut mesh = WorkMesh::new(reference);
+            run(&mut mesh, target, length, count, &mut ChaCha8Rng::seed_from_u64(seed));
+            let asks_too_much = asks_too_much(&mesh, count, fidelity);
+            (sites::finish(&mesh, surface, clean), asks_too_much)
+        };
+        let less = fidelity.next();
+        // Every fixed vertex takes a triangle or two.
+        if let Some(less) = less
+            && reference.fixed.iter().filter(|&&fixed| fixed).count() as f64 > count
+        {
+            fidelity = less;
+            continue;
+        }
+        let (mut film, asks_too_much) = build(&reference);
+        if let Some(less) = less
+            && asks_too_much
+        {
+            fidelity = less;
+            continue;
+        }
+        // Bars thinner than the triangles lose their roundness, unless the film is held closer to them.
+        let loss = ShapeLoss::of(clean, &film);
+        if loss.excess() > 1.0 {
+            reference.closeness = CLOSER;
+            let (closer, asks_too_much) = build(&reference);
+            if !asks_too_much && ShapeLoss::of(clean, &closer).excess() < loss.excess() {
+                film = closer;
+            }
+        }
+        break (film, reference.sizing.starved);
+    };
     let tolerance = match target {
         Target::Count(_) => COUNT_TOLERANCE,
         Target::Length(_) => LENGTH_TOLERANCE,
     };
+    let found = film.triangles.len();
+    let target = count as u32;
     if found as f64 > count * (1.0 + tolerance) {
-        film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target: count as u32, triangles: found as u32 });
+        film.warnings.push(BuildWarning::FeaturesDenserThanTarget { target, triangles: found as u32 });
     }
+    if fidelity != Fidelity::Facets {
+        film.warnings.push(BuildWarning::FeaturesSimplified { target });
+    }
+    if starved > 0 {
+        let triangles = (f64::from(starved) * 2.0 * LEAST_PART).ceil() as u32;
+        film.warnings.push(BuildWarning::SmallPartsCoarse { parts: starved, triangles });
+    }
+    film.warnings.extend(ShapeLoss::of(clean, &film).warning(target));
     Ok(film)
+}
+
+/// Returns whether the features are too close together for the count. Facets that force needles on the film are given
+/// up too.
+fn asks_too_much(mesh: &WorkMesh, count: f64, fidelity: Fidelity) -> bool {
+    if mesh.topology.live_faces() as f64 > MOST * count {
+        return true;
+    }
+    if fidelity != Fidelity::Facets {
+        return false;
+    }
+    let (mut all, mut thin) = (0.0, 0.0);
+    for f in mesh.topology.faces() {
+        let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
+        let area = f64::from(mesh.area_vector(f).length());
+        all += area;
+        thin += if quality(a, b, c) < NEEDLE { area } else { 0.0 };
+    }
+    thin > MOST_NEEDLES * all
 }
 
 fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
@@ -108,10 +181,11 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
         Target::Count(_) => length,
         Target::Length(_) => length / SETTLED,
     };
+    let most = (MOST_WHILE_SPLITTING * count) as usize + mesh.topology.live_faces();
     for round in 0..ROUNDS {
         // In the first rounds the edges are still too long or too short to judge bends by them.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
-        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge) }, rng);
+        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge, most) }, rng);
         flip::flip_edges(mesh);
         collapse::collapse_short_edges(mesh, limits(edge));
         flip::flip_edges(mesh);
@@ -123,12 +197,12 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
     }
     for _ in 0..CALM_ROUNDS {
         relax(mesh, edge, 0.0, rng);
-        split::split_edges(mesh, cuts(edge), rng);
+        split::split_edges(mesh, cuts(edge, most), rng);
         flip::flip_edges(mesh);
     }
     let mut fewest_faces = 4;
     if let Target::Count(count) = target {
-        meet_count(mesh, edge, count as usize, rng);
+        meet_count(mesh, edge, CollapseLimits { fewest_faces: count as usize, ..limits(edge) }, rng);
         fewest_faces = (count as usize).saturating_sub(count as usize / 100).max(4);
     }
     for _ in 0..POLISH_ROUNDS {
@@ -138,15 +212,15 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
 }
 
 /// Collapses the shortest or splits the longest edges until the count is met.
-fn meet_count(mesh: &mut WorkMesh, edge: f32, count: usize, rng: &mut ChaCha8Rng) {
-    let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, fewest_faces: count, ..limits(edge) };
+fn meet_count(mesh: &mut WorkMesh, edge: f32, limits: CollapseLimits, rng: &mut ChaCha8Rng) {
+    let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, ..limits };
     collapse::collapse_short_edges(mesh, reserve);
-    split::split_longest_edges(mesh, edge, count, rng);
+    split::split_longest_edges(mesh, edge, limits.fewest_faces, rng);
     flip::flip_edges(mesh);
 }
 
-fn cuts(edge: f32) -> SplitLimits {
-    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge }
+fn cuts(edge: f32, most_faces: usize) -> SplitLimits {
+    SplitLimits { longest: SPLIT * edge, stray: STRAY_SPLIT * edge, shortest: STRAY_SHORTEST * edge, most_faces }
 }
 
 fn limits(edge: f32) -> CollapseLimits {

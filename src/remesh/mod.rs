@@ -13,7 +13,9 @@ mod collapse;
 mod features;
 mod film;
 mod flip;
+mod frame;
 mod isotropic;
+mod loss;
 mod noise;
 mod polish;
 mod project;
@@ -23,6 +25,7 @@ mod resolution;
 pub mod sample;
 mod share;
 mod sites;
+mod sizing;
 mod split;
 #[cfg(test)]
 mod tests;
@@ -34,6 +37,7 @@ pub use resolution::FilmResolution;
 pub use share::{LEAST_TRIANGLES, share_triangles};
 
 use crate::surface::{BuildError, Surface, clean};
+use frame::Frame;
 
 /// Builds the film of a surface: cleans the surface, remeshes it to the resolution (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.
@@ -42,7 +46,8 @@ use crate::surface::{BuildError, Surface, clean};
 /// bit.
 ///
 /// # Errors
-/// The errors of [`clean`], [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
+/// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
+/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
 /// the film would have more than [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
@@ -65,9 +70,13 @@ use crate::surface::{BuildError, Surface, clean};
 /// ```
 pub fn build_film(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
     let target = resolution.target()?;
+    let frame = Frame::of(surface)?;
+    let moved = frame.enter(surface);
+    let surface = moved.as_ref().unwrap_or(surface);
     let clean = clean(surface)?;
-    match target {
+    let film = match target {
         Some(target) => isotropic::remesh(surface, &clean, target, seed),
         None => sites::keep(surface, &clean),
-    }
+    };
+    frame.leave(film?)
 }

@@ -28,7 +28,7 @@ pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
         }
         let shortest = f.half_edges().into_iter().min_by(|&a, &b| mesh.length(a).total_cmp(&mesh.length(b)));
         if let Some(h) = shortest
-            && mesh.length(h) < limits.shortest
+            && mesh.sized_length(h) < limits.shortest
             && mesh.topology.live_faces() > limits.fewest_faces
         {
             try_collapse(mesh, h, limits);
@@ -50,7 +50,7 @@ fn thin_faces(mesh: &WorkMesh) -> Vec<FaceId> {
 
 fn quality_of(mesh: &WorkMesh, f: FaceId) -> f32 {
     let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
-    quality(a, b, c)
+    quality(a, b, c) * mesh.allowance(f)
 }
 
 /// Returns whether turning the edge between (a, b, c) and (b, a, d) raises the lower of the two qualities.

@@ -3,8 +3,9 @@
 use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
-use super::features::Features;
+use super::features::{Features, Scale};
 use super::noise::drop_noise;
+use super::sizing::Sizing;
 use super::topology::Topology;
 use crate::{
     film::HalfEdgeId,
@@ -24,11 +25,14 @@ pub(super) struct Reference<'a> {
     pub fixed: Vec<bool>,
     /// Patch of each triangle: see `Features::patches`.
     pub patches: Vec<u32>,
+    pub sizing: Sizing,
+    /// Factor of the distances from the surface that are allowed.
+    pub closeness: f32,
 }
 
 impl<'a> Reference<'a> {
-    /// Prepares the surface for a film of edge length `target` and about `triangles` faces.
-    pub fn new(surface: &Surface, clean: &'a CleanSurface, target: f32, triangles: f32) -> Self {
+    /// Prepares the surface for a film of this scale.
+    pub fn new(surface: &Surface, clean: &'a CleanSurface, scale: Scale) -> Self {
         let positions = &clean.positions;
         let topology = Topology::new(&clean.triangles, positions.len());
         let normals: Vec<Vec3> = topology
@@ -38,13 +42,15 @@ impl<'a> Reference<'a> {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let mut features = Features::find(surface, clean, &topology, &normals, target, triangles);
+        let mut features = Features::find(surface, clean, &topology, &normals, scale);
+        let target = scale.target;
         drop_noise(&mut features, &topology, positions, target);
         let mut fixed = features.rigid_vertices(&topology);
         let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
         let patches = features.patches(&topology);
+        let sizing = Sizing::new(&topology, positions, &patches, &chain_of, &chains, scale);
         let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
-        Self { topology, positions, triangles, chain_of, chains, fixed, patches }
+        Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing, closeness: 1.0 }
     }
 
     /// Returns whether the film must follow this edge.
@@ -53,8 +59,8 @@ impl<'a> Reference<'a> {
         self.chain_of[h.index()] != NO_CHAIN
     }
 
-    /// Returns the largest distance of a chain from the chord between two arc lengths.
+    /// Returns the largest distance of a chain from the chord between two arc lengths, over the scale of the part.
     pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
-        self.chains.deviation(self.positions, chain, from, to)
+        self.chains.deviation(self.positions, chain, from, to) / self.sizing.chain_scales[chain as usize]
     }
 }

@@ -46,7 +46,8 @@ fn relax_on_line(mesh: &mut WorkMesh, v: VertexId, chain: u32, s: f32, settings:
     drop(ends);
     let (low, high) = (a.min(b), a.max(b));
     let middle = 0.5 * (low + high);
-    let jitter = settings.jitter * (2.0 * rng.random::<f32>() - 1.0);
+    let scale = mesh.reference.sizing.chain_scales[chain as usize];
+    let jitter = scale * settings.jitter * (2.0 * rng.random::<f32>() - 1.0);
     let margin = 0.2 * (high - low);
     let wanted = (s + settings.step * (middle - s) + jitter).clamp(low + margin, high - margin);
     let reference = mesh.reference;
@@ -68,7 +69,9 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
     let SurfacePoint::Free(start) = mesh.surface_point(v) else { return };
     let here = mesh.position(v);
     let (mut middle, mut weight, mut normal) = (Vec3::ZERO, 0.0, Vec3::ZERO);
+    let mut scale = 1.0;
     for f in mesh.topology.faces_around(v) {
+        scale = mesh.scale(f);
         let area_vector = mesh.area_vector(f);
         let area = area_vector.length();
         let [a, b, c] = mesh.topology.corners(f).map(|v| mesh.position(v));
@@ -82,7 +85,7 @@ fn relax_on_patch(mesh: &mut WorkMesh, v: VertexId, settings: Relaxation, rng: &
         return;
     }
     let jitter = Vec3::new(rng.random(), rng.random(), rng.random()) * 2.0 - Vec3::ONE;
-    let wanted = (middle / weight - here) * settings.step + jitter * settings.jitter;
+    let wanted = (middle / weight - here) * settings.step + jitter * (scale * settings.jitter);
     let wanted = wanted - normal * normal.dot(wanted);
     for step in [1.0, 0.5, 0.25] {
         let foot = project(mesh.reference, here + wanted * step, start);

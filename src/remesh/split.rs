@@ -4,8 +4,9 @@ use bevy_math::Vec3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use super::flip::flip_edges;
 use super::project::project;
-use super::work_mesh::{SurfacePoint, WorkMesh};
+use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
 use crate::film::{HalfEdgeId, VertexId};
 
 /// Least share of a face's area that each half must have after a split.
@@ -24,17 +25,22 @@ pub(super) struct SplitLimits {
     pub stray: f32,
     /// Edges up to this length are not split because of `stray`.
     pub shortest: f32,
+    /// Number of faces at which splitting stops.
+    pub most_faces: usize,
 }
 
-/// Splits edges that are too long, the longest first, until none is left. Then splits edges that cut through a bend of
+/// Splits edges that are too long, the longest first, until none is left. Flips between the rounds keep needles from
+/// being split into more and more of them. Then splits edges that cut through a bend of
 /// the surface, once.
 pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut ChaCha8Rng) {
     // Each round about halves the longest edges, so 40 rounds are more than any mesh needs.
     for _ in 0..40 {
-        let long = mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
-        if !split_all(mesh, long, limits.longest, usize::MAX, rng) {
+        let long =
+            mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
+        if !split_all(mesh, long, limits.longest, limits.most_faces, rng) {
             break;
         }
+        flip_edges(mesh);
     }
     if limits.stray == f32::MAX {
         return;
@@ -42,15 +48,15 @@ pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut Ch
     let straying = mesh
         .topology
         .edges()
-        .map(|h| (mesh.length(h), h))
+        .map(|h| (mesh.sized_length(h), h))
         .filter(|&(l, h)| l > limits.shortest && mesh.stray(h) > limits.stray)
         .collect();
-    split_all(mesh, straying, limits.shortest, usize::MAX, rng);
+    split_all(mesh, straying, limits.shortest, limits.most_faces, rng);
 }
 
 /// Splits edges longer than `least`, the longest first, until there are `count` faces.
 pub(super) fn split_longest_edges(mesh: &mut WorkMesh, least: f32, count: usize, rng: &mut ChaCha8Rng) {
-    let long = mesh.topology.edges().map(|h| (mesh.length(h), h)).filter(|&(l, _)| l > least).collect();
+    let long = mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > least).collect();
     split_all(mesh, long, least, count, rng);
 }
 
@@ -68,7 +74,7 @@ fn split_all(
         if mesh.topology.live_faces() >= most_faces {
             break;
         }
-        if mesh.length(h) > least {
+        if mesh.sized_length(h) > least {
             let cut = 0.5 + SPREAD * (rng.random::<f32>() - 0.5);
             any |= split(mesh, h, cut).is_some();
         }
@@ -95,6 +101,7 @@ pub(super) fn split(mesh: &mut WorkMesh, h: HalfEdgeId, cut: f32) -> Option<Vert
         }
         None => foot_of_cut(mesh, h, cut)?,
     };
+    count_edit();
     let twin = mesh.topology.twin(h);
     let m = mesh.add_vertex(position, surface_point);
     let beyond = cut_face(mesh, h, m);

@@ -134,14 +134,19 @@ impl Topology {
         self.outgoing(v).is_some_and(|h| self.twin(h).is_none())
     }
 
-    /// Iterates over the neighbours of the vertex, counter-clockwise.
-    pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+    /// Iterates over the edges at the vertex with its neighbours, counter-clockwise.
+    pub fn spokes(&self, v: VertexId) -> impl Iterator<Item = (HalfEdgeId, VertexId)> + '_ {
         let last = self
             .outgoing(v)
             .filter(|&h| self.twin(h).is_none())
             .and_then(|_| self.ring(v).last())
-            .map(|h| self.opposite(h));
-        self.ring(v).map(|h| self.target(h)).chain(last)
+            .map(|h| (h.previous(), self.opposite(h)));
+        self.ring(v).map(|h| (h, self.target(h))).chain(last)
+    }
+
+    /// Iterates over the neighbours of the vertex, counter-clockwise.
+    pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        self.spokes(v).map(|(_, n)| n)
     }
 
     /// Returns the half-edge from `a` to `b`, or else the one from `b` to `a`.

@@ -19,6 +19,19 @@ pub(super) enum SurfacePoint {
     Free(FaceId),
 }
 
+#[cfg(test)]
+thread_local! {
+    /// Number of splits, collapses and flips so far: the measure of work for tests.
+    pub(super) static EDITS: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
+/// Counts a split, collapse or flip, for tests.
+#[inline]
+pub(super) fn count_edit() {
+    #[cfg(test)]
+    EDITS.set(EDITS.get() + 1);
+}
+
 /// Film while it is being remeshed, over the surface onto which it is projected.
 pub(super) struct WorkMesh<'a> {
     pub reference: &'a Reference<'a>,
@@ -82,6 +95,35 @@ impl<'a> WorkMesh<'a> {
     #[inline]
     pub fn length(&self, h: HalfEdgeId) -> f32 {
         self.position(self.topology.origin(h)).distance(self.position(self.topology.target(h)))
+    }
+
+    /// Returns the length of the edge over the factor by which edges may be longer than the target there.
+    #[inline]
+    pub fn sized_length(&self, h: HalfEdgeId) -> f32 {
+        self.length(h) / self.stretch(h)
+    }
+
+    /// Returns the factor by which the edge may be longer than the target: see `Sizing`.
+    #[inline]
+    pub fn stretch(&self, h: HalfEdgeId) -> f32 {
+        let sizing = &self.reference.sizing;
+        match self.chain(h) {
+            Some(chain) => sizing.chains[chain as usize],
+            None => sizing.patches[self.patches[h.face().index()] as usize],
+        }
+    }
+
+    /// Returns the factor of tolerances at the face: see `Sizing`.
+    #[inline]
+    pub fn scale(&self, f: FaceId) -> f32 {
+        self.reference.sizing.patch_scales[self.patches[f.index()] as usize]
+    }
+
+    /// Returns the factor that makes 1 of the quality of the best triangles that fit the patch of the face.
+    #[inline]
+    pub fn allowance(&self, f: FaceId) -> f32 {
+        let stretch = self.reference.sizing.patches[self.patches[f.index()] as usize] / self.scale(f);
+        (stretch * stretch / 1.5).max(1.0)
     }
 
     /// Returns the unit normal of the face times twice its area.
@@ -171,7 +213,7 @@ impl<'a> WorkMesh<'a> {
         std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
-    /// Returns the distance of the middle of the edge `h` from the surface. It is 0 for feature edges, whose distance
+    /// Returns the distance of the middle of the edge `h` from the surface, over the scale of the part. It is 0 for feature edges, whose distance
     /// from their line is measured instead.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {
         if self.chain(h).is_some() {
@@ -182,7 +224,13 @@ impl<'a> WorkMesh<'a> {
             (SurfacePoint::Free(f), _) | (_, SurfacePoint::Free(f)) => f,
             _ => self.corner(h).triangle,
         };
-        self.stray_at(self.position(a).midpoint(self.position(b)), start)
+        self.stray_between(self.position(a), self.position(b), start, h.face())
+    }
+
+    /// Returns the distance of the middle of an edge from `a` to `b` at the face `f` from the surface, over the scale of
+    /// the part and the closeness of the film.
+    pub fn stray_between(&self, a: Vec3, b: Vec3, start: FaceId, f: FaceId) -> f32 {
+        self.stray_at(a.midpoint(b), start) / (self.scale(f) * self.reference.closeness)
     }
 
     /// Returns the largest distance of the edges at a vertex from the surface.
@@ -216,7 +264,7 @@ impl<'a> WorkMesh<'a> {
             if after.dot(before) < FOLD * after.length() * before.length() || after == Vec3::ZERO {
                 return None;
             }
-            least = least.min(quality(p, a, b));
+            least = least.min(quality(p, a, b) * self.allowance(h.face()));
         }
         Some(least)
     }
@@ -227,7 +275,7 @@ impl<'a> WorkMesh<'a> {
             .faces_around(v)
             .map(|f| {
                 let [a, b, c] = self.topology.corners(f).map(|v| self.position(v));
-                quality(a, b, c)
+                quality(a, b, c) * self.allowance(f)
             })
             .fold(f32::MAX, f32::min)
     }

@@ -3,12 +3,16 @@
 use bevy::{
     app::{App, Plugin},
     asset::{AssetApp, AssetLoader, LoadContext, io::Reader},
+    ecs::resource::Resource,
     reflect::TypePath,
 };
 
 use super::{CoatingSettings, SettingsError};
 
 /// Makes [`CoatingSettings`] an asset that is loaded from `*.coating.ron` files and can be reflected.
+///
+/// `CoatingWeatheringPlugin` adds it. By itself it serves tools that only edit settings. It may be added several times,
+/// in any order.
 ///
 /// With Bevy's `file_watcher` feature a file that is edited while the game runs is loaded again; if the edit is
 /// refused, the error is logged and the settings stay as they were.
@@ -17,11 +21,24 @@ pub struct CoatingSettingsPlugin;
 
 impl Plugin for CoatingSettingsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_asset::<CoatingSettings>()
+        // To add the asset twice would forget the settings that are loaded.
+        if app.world().contains_resource::<SettingsAdded>() {
+            return;
+        }
+        app.insert_resource(SettingsAdded)
+            .init_asset::<CoatingSettings>()
             .register_asset_reflect::<CoatingSettings>()
             .init_asset_loader::<CoatingSettingsLoader>();
     }
+
+    fn is_unique(&self) -> bool {
+        false
+    }
 }
+
+/// Mark of an app that has the asset and its loader.
+#[derive(Resource)]
+struct SettingsAdded;
 
 /// Loads [`CoatingSettings`] from RON files whose names end in `.coating.ron`. What a file leaves out has its
 /// default.

@@ -35,6 +35,8 @@ impl CoatingSettings {
     /// ```
     pub fn from_ron(text: &str, file: &str) -> Result<Self, SettingsError> {
         let mut fault = None;
+        // Some programs begin every text with a byte order mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         ron::Options::default().from_str_seed(text, SettingsSeed { fault: &mut fault }).map_err(|error| SettingsError {
             position: Some(TextPosition {
                 file: file.into(),

@@ -34,9 +34,6 @@ const FIXED_COST: usize = 200;
 /// Weight of the last frame in the running mean of the cost of a vertex.
 const NEWEST: f64 = 0.2;
 
-/// Most steps that a postponed film may owe, in frames' worth of [`CoatingBudget::max_steps`].
-pub(super) const BACKLOG_FRAMES: u32 = 4;
-
 /// Measured cost of steps, and the buffer of [`plan_budget`].
 #[derive(Resource, Debug, Default)]
 pub(crate) struct StepCost {
@@ -73,48 +70,39 @@ pub(super) type BudgetFilms =
 /// Query of the cameras that look at the films.
 pub(super) type Cameras = QueryState<(&'static Camera, &'static GlobalTransform), With<Camera>>;
 
-/// Postpones the films whose steps do not fit into the frame, but never all of them. Returns the largest number of
-/// steps that a film which is not postponed has planned.
-pub(super) fn plan_budget(
-    world: &mut World,
-    films: &mut BudgetFilms,
-    cameras: &mut Cameras,
-    budget: CoatingBudget,
-) -> u64 {
+/// Postpones the films whose steps do not fit into the frame, but never all of them.
+pub(super) fn plan_budget(world: &mut World, films: &mut BudgetFilms, cameras: &mut Cameras, budget: CoatingBudget) {
     let mut cost = std::mem::take(&mut *world.resource_mut::<StepCost>());
-    let most = u64::from(budget.max_steps.max(1));
     let per_vertex = budget.fixed_cost.map_or(cost.per_vertex, |cost| cost.as_secs_f64() / 1000.0);
-    let (mut rounds, mut whole) = (0, 0.0);
+    let mut whole = 0.0;
     cost.candidates.clear();
     for (entity, mut pace, constraints, _) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.postponed = false;
         pace.cost = 0;
-        if pace.planned == 0 {
+        if pace.planned == 0 || pace.held {
             pace.credit = 0.0;
             continue;
         }
-        rounds = rounds.max(pace.planned);
         pace.cost = (FIXED_COST + constraints.awake_count()) as u64;
-        let seconds = (pace.cost * pace.planned.min(most)) as f64 * per_vertex;
+        let seconds = pace.cost as f64 * pace.planned as f64 * per_vertex;
         whole += seconds;
         cost.candidates.push(Candidate { entity, credit: 0.0, seconds });
     }
     if whole > budget.max_time.as_secs_f64() {
-        rounds = share_budget(world, films, cameras, budget.max_time, &mut cost.candidates);
+        share_budget(world, films, cameras, budget.max_time, &mut cost.candidates);
     }
     *world.resource_mut::<StepCost>() = cost;
-    rounds
 }
 
-/// Sorts the films by credit and postpones the films that no longer fit into `time`. Returns as [`plan_budget`] does.
+/// Sorts the films by credit and postpones the films that no longer fit into `time`.
 fn share_budget(
     world: &mut World,
     films: &mut BudgetFilms,
     cameras: &mut Cameras,
     time: Duration,
     candidates: &mut [Candidate],
-) -> u64 {
+) {
     let eyes: Vec<Vec3> =
         cameras.iter(world).filter(|(camera, _)| camera.is_active).map(|(_, at)| at.translation()).collect();
     for candidate in candidates.iter_mut() {
@@ -125,7 +113,7 @@ fn share_budget(
     }
     // Ties are decided by entity, so that the order is always the same.
     candidates.sort_unstable_by(|a, b| b.credit.total_cmp(&a.credit).then(a.entity.cmp(&b.entity)));
-    let (mut left, mut rounds) = (time.as_secs_f64(), 0);
+    let mut left = time.as_secs_f64();
     for (i, candidate) in candidates.iter().enumerate() {
         let Ok((_, mut pace, ..)) = films.get_mut(world, candidate.entity) else { continue };
         let pace = pace.bypass_change_detection();
@@ -135,9 +123,7 @@ fn share_budget(
         }
         left -= candidate.seconds;
         pace.credit = 0.0;
-        rounds = rounds.max(pace.planned);
     }
-    rounds
 }
 
 /// Returns the size of a film in the view of the nearest camera: its radius over its distance, from [`LEAST_SHARE`] to

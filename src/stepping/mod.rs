@@ -5,13 +5,18 @@
 //! ```
 
 mod budget;
+mod checks;
+mod follow;
+mod frame_time;
+mod reached;
 mod report;
 mod runner;
 mod schedule;
 mod systems;
-mod weather;
 
 pub(crate) use budget::{StepCost, bounds};
+pub(crate) use checks::{check_clock, check_weather};
+pub(crate) use follow::follow_coatings;
+pub(crate) use reached::ReachedPace;
 pub(crate) use runner::advance;
 pub(crate) use schedule::add_step_schedule;
-pub(crate) use weather::check_weather;

@@ -19,7 +19,7 @@ use crate::{
         messages::{FirstCrack, PieceFallen},
     },
     appearance::DisplayChanges,
-    film::{FilmChanges, FilmMesh},
+    film::{FaceId, FilmChanges, FilmMesh},
     sim::{FilmClock, Stage},
     stain::StainFields,
 };
@@ -52,7 +52,8 @@ pub(super) fn report(
                 let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
                 cracks.write(FirstCrack { entity, age: clock.age(), position: world.point((a + b) / 2.0) });
             }
-            for debris in &changes.debris {
+            let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
+            for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {
                 pieces.write(PieceFallen {
                     entity,
                     position: world.point(debris.position),

@@ -1,4 +1,7 @@
 //! Turns elapsed time into steps of the films and runs the step schedule within the budget.
+//!
+//! A frame's age is the same for all films. The budget shortens it as a whole, where it must: then paint ages more
+//! slowly everywhere, and speeds keep their ratio. No step that a film is owed is dropped.
 
 use web_time::Instant;
 
@@ -12,7 +15,11 @@ use bevy::{
     transform::components::GlobalTransform,
 };
 
-use super::budget::{BACKLOG_FRAMES, BudgetFilms, Cameras, StepCost, plan_budget};
+use super::{
+    budget::{BudgetFilms, Cameras, StepCost, plan_budget},
+    frame_time::{FrameTime, shorten_age},
+    reached::ReachedPace,
+};
 use crate::{
     api::{
         budget::CoatingBudget,
@@ -53,105 +60,86 @@ pub(crate) fn advance(
 ) {
     let begin = Instant::now();
     let budget = world.resource::<DisplayCost>().leaves(*world.resource::<CoatingBudget>());
-    plan(world, films);
-    let rounds = plan_budget(world, budget_films, cameras, budget);
-    let mut taken = 0;
-    while taken < rounds && taken < u64::from(budget.max_steps.max(1)) {
-        if taken > 0 && budget.fixed_cost.is_none() && begin.elapsed() >= budget.max_time {
-            break;
-        }
+    let max_steps = u64::from(budget.max_steps.max(1));
+    let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
+    let age = plan(world, films, max_steps, seconds);
+    plan_budget(world, budget_films, cameras, budget);
+    let mut time = FrameTime::new(films.iter(world).map(|(pace, ..)| pace), max_steps);
+    while time.begin_round() {
         let mut work = 0;
         for (mut pace, ..) in films.iter_mut(world) {
             let pace = pace.bypass_change_detection();
-            pace.due = !pace.postponed && is_due(taken, pace.planned, rounds);
-            pace.taken += u64::from(pace.due);
+            pace.due = !pace.held && !pace.postponed && pace.account.take(time.now());
             work += if pace.due { pace.cost } else { 0 };
         }
         world.resource_mut::<StepCost>().count(work);
         world.run_schedule(CoatingStep);
-        taken += 1;
+        if budget.fixed_cost.is_none() && begin.elapsed() >= budget.max_time {
+            break;
+        }
     }
-    if taken > 0 {
+    if time.has_run() {
         world.resource_mut::<StepCost>().learn(begin.elapsed());
     }
-    let mut status = settle(world, films, budget);
+    let mut status = settle(world, films, time.now());
     status.waiting =
         waiting.iter(world).count() + building.iter(world).filter(|slot| slot.display_mesh.is_none()).count();
     status.refused = refused.iter(world).count();
+    status.age_per_second = world.resource_mut::<ReachedPace>().add(age * time.now(), seconds);
     let mut current = world.resource_mut::<CoatingStatus>();
     current.set_if_neq(status);
 }
 
-/// Returns whether a film that has planned `planned` steps in `rounds` rounds takes one in round `round` (0 is the
-/// first). The steps are spread as evenly as whole numbers allow.
-fn is_due(round: u64, planned: u64, rounds: u64) -> bool {
-    let until = |round: u64| u128::from(round) * u128::from(planned) / u128::from(rounds);
-    until(round + 1) > until(round)
-}
-
-/// Plans the steps of each film in this frame from the clock and the requested steps.
-fn plan(world: &mut World, films: &mut Films) {
-    let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
+/// Plans the steps of each film in this frame from the clock and the requested steps. Returns the age that the frame is
+/// worth, 0 if no film ages.
+fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> f64 {
     let gravity = *world.resource::<CoatingGravity>();
     let weather = *world.resource::<CoatingWeather>();
-    let (age, target, requested) = {
+    let (clock, requested) = {
         let mut clock = world.resource_mut::<CoatingClock>();
         let clock = clock.bypass_change_detection();
-        let age = if clock.paused { 0.0 } else { clock.age_per_second * seconds };
-        (age, clock.target_age, std::mem::take(&mut clock.requested_steps))
+        let requested = std::mem::take(&mut clock.requested_steps);
+        (clock.clone(), requested)
     };
-    for (mut pace, clock, transform, mut shelter, mut stains) in films.iter_mut(world) {
+    // An infinite speed gives NaN in a frame without time.
+    let wanted = if seconds > 0.0 && !clock.paused { clock.checked_speed() * seconds } else { 0.0 };
+    let target = clock.checked_target();
+    for (mut pace, clock_of_film, transform, mut shelter, mut stains) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.environment = weather.environment(gravity, transform);
         // A new exposure changes no stain yet, so display need not notice it.
         shelter.bypass_change_detection().finish(stains.bypass_change_detection());
         pace.held = shelter.holds_back(&pace.environment);
-        pace.requested = pace.requested.saturating_add(requested);
-        let owed = age * pace.rate * f64::from(clock.steps_per_age);
-        if !pace.paused && owed > 0.0 {
-            pace.owed += owed;
-        }
-        // The conversion saturates for infinite speeds.
-        let mut planned = (pace.owed as u64).saturating_add(pace.requested);
-        if let Some(target) = target {
-            let left = clock.step_at(target).saturating_sub(clock.steps);
-            if planned >= left {
-                // Steps beyond the target are not owed, so that ageing does not leap when the target is raised later.
-                planned = left;
-                pace.owed = pace.owed.min(left as f64);
-                pace.requested = pace.requested.min(left);
-            }
-        }
-        pace.held &= planned > 0;
-        pace.planned = if pace.held { 0 } else { planned };
-        pace.taken = 0;
+        let steps_per_age = pace.rate * f64::from(clock_of_film.steps_per_age);
+        let left = target.map_or(u64::MAX, |age| clock_of_film.step_at(age).saturating_sub(clock_of_film.steps));
+        pace.account.begin(steps_per_age, left, wanted > 0.0, !pace.paused);
+        pace.account.request(requested);
     }
+    let age = shorten_age(wanted, max_steps, films.iter(world).map(|(pace, ..)| pace));
+    let mut any = false;
+    for (mut pace, ..) in films.iter_mut(world) {
+        let pace = pace.bypass_change_detection();
+        pace.account.give(age);
+        any |= pace.account.is_ageing();
+        pace.planned = pace.account.due(1.0).min(max_steps);
+        pace.held &= pace.planned > 0;
+    }
+    if any { age } else { 0.0 }
 }
 
-/// Subtracts the steps that were taken from the requested and the owed ones, drops the owed steps that did not fit, and
-/// returns the counts for [`CoatingStatus`].
-fn settle(world: &mut World, films: &mut Films, budget: CoatingBudget) -> CoatingStatus {
-    let backlog = f64::from(budget.max_steps.max(1).saturating_mul(BACKLOG_FRAMES));
+/// Ends the frame at `time` for all films, and returns the counts for [`CoatingStatus`].
+fn settle(world: &mut World, films: &mut Films, time: f64) -> CoatingStatus {
     let mut status = CoatingStatus { youngest: f64::INFINITY, ..CoatingStatus::default() };
     for (mut pace, clock, ..) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
         pace.due = false;
-        let requested = pace.taken.min(pace.requested);
-        pace.requested -= requested;
-        pace.owed -= (pace.taken - requested) as f64;
-        if pace.postponed {
-            // A postponed film takes the steps that it owes together later, but no more than a few frames' worth.
-            pace.owed = if pace.owed > backlog { backlog } else { pace.owed };
-        } else if !pace.held {
-            // Steps that were planned but not taken are dropped; an infinite speed leaves no fraction to carry over.
-            pace.owed = if pace.owed.is_finite() { pace.owed.fract() } else { 0.0 };
-        }
         status.films += 1;
         status.casting += usize::from(pace.held);
-        status.stepped += usize::from(pace.taken > 0);
+        status.stepped += usize::from(pace.account.taken() > 0);
         status.postponed += usize::from(pace.postponed);
         status.youngest = status.youngest.min(clock.age());
         status.oldest = status.oldest.max(clock.age());
+        pace.account.end(time);
     }
     if status.films == 0 {
         status.youngest = 0.0;

@@ -52,6 +52,29 @@ pub enum BuildError {
         /// Number of triangles of the surface.
         triangles: usize,
     },
+    /// The surface is too small or too large for lengths in metres in single precision.
+    #[error("the mesh is {size} m across, outside of {least} to {most} m; scale it (is its unit right?)")]
+    Size {
+        /// Longest side of its bounding box.
+        size: f64,
+        /// Smallest size that is allowed.
+        least: f64,
+        /// Largest size that is allowed.
+        most: f64,
+    },
+    /// The surface lies so far from its origin that rounding would fold the film's triangles.
+    #[error(
+        "the mesh lies {distance} m from its origin, where positions are rounded to {rounding} m, too coarse for triangles \
+         of {edge} m; move it nearer to its origin or ask for fewer triangles"
+    )]
+    FarFromOrigin {
+        /// Distance of its farthest coordinate.
+        distance: f32,
+        /// Distance between neighbouring numbers in single precision there.
+        rounding: f32,
+        /// Mean edge of the film's triangles.
+        edge: f32,
+    },
     /// The resolution asked for is out of range.
     #[error("film resolution {found} is out of range: {range}")]
     Resolution {

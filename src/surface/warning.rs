@@ -46,4 +46,37 @@ pub enum BuildWarning {
         /// Number of triangles that the film has.
         triangles: u32,
     },
+    /// Corners, facets or creases that are closer together than the film's vertices were passed over, since the film
+    /// would have had far more triangles than were asked for, or needles.
+    #[error(
+        "corners, facets or creases closer together than the vertices of the film were passed over, since {target} \
+         triangles are too few to follow them: ask for more, or keep the triangles of the mesh"
+    )]
+    FeaturesSimplified {
+        /// Number of triangles that was asked for.
+        target: u32,
+    },
+    /// Small separate parts lost their shape, since there are too many of them for the film's triangles.
+    #[error("{parts} small separate parts lost their shape: ask for at least {triangles} triangles to keep it")]
+    SmallPartsCoarse {
+        /// Number of the parts.
+        parts: u32,
+        /// Number of triangles that would show their shape.
+        triangles: u32,
+    },
+    /// The film is noticeably smaller than the prop, since its triangles cut corners on round places.
+    #[error(
+        "the film of {target} triangles is coarse for this shape: its area is {area:.0} % off and the volume inside \
+         {volume:.0} %; ask for {triangles} triangles or more"
+    )]
+    ShapeCoarse {
+        /// Number of triangles that was asked for.
+        target: u32,
+        /// Change of the area, in percent.
+        area: f32,
+        /// Change of the enclosed volume, in percent; 0 if the surface is open.
+        volume: f32,
+        /// Number of triangles that would follow the shape closely.
+        triangles: u32,
+    },
 }

@@ -1,9 +1,16 @@
 //! The tools from outside: exit codes, figures, files, and aged models in other readers.
 
+mod build;
+mod strict;
 mod tool;
 
+mod carried;
 mod figures;
+mod files;
+mod masks;
 mod model;
 #[cfg(feature = "render")]
 mod picture;
+mod safety;
+mod several;
 mod table1;

@@ -2,11 +2,15 @@
 
 use std::{fs, path::Path};
 
-use crate::tool::{QUICK, TEXTURE, baked, folder, number, stats, write_two_squares};
+use crate::{
+    strict::Glb,
+    tool::{QUICK, TEXTURE, baked, folder, grey_png, number, stats, write_two_squares},
+};
 
-/// The aged model in the `gltf` crate, which validates what it reads.
+/// The aged model, checked strictly, in the `gltf` crate, which validates what it reads too.
 fn read_back(path: &Path) -> (gltf::Document, Vec<u8>) {
     let bytes = fs::read(path).expect("a model");
+    Glb::checked(&bytes);
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).expect("valid glTF");
     (document, blob.expect("a binary chunk"))
 }
@@ -168,15 +172,6 @@ fn without_stains_materials_are_what_they_were() {
     assert_eq!(factor, Some([0.55, 0.58, 0.6, 1.0]));
 }
 
-/// A grey image of 4 by 4 texels.
-fn grey_png() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 4, 4);
-    encoder.set_color(png::ColorType::Grayscale);
-    encoder.write_header().and_then(|mut writer| writer.write_image_data(&[190; 16])).expect("a PNG");
-    bytes
-}
-
 #[test]
 fn the_aged_model_opens_elsewhere_with_its_texture() {
     let folder = folder();
@@ -205,11 +200,12 @@ fn the_aged_model_opens_elsewhere_with_its_texture() {
     // The prop lies where it lay: the large square on the far side, and textures on their place.
     let large = document.nodes().nth(1).and_then(|node| node.mesh()).expect("a mesh");
     let paint = large.primitives().next().expect("paint");
-    let (translation, ..) = document.nodes().nth(1).expect("a node").transform().decomposed();
+    let (translation, rotation, scale) = document.nodes().nth(1).expect("a node").transform().decomposed();
+    assert_eq!((translation, rotation, scale), ([-5.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0], [-3.0, 3.0, 3.0]));
     let reader = paint.reader(|_| Some(&blob));
     let uvs = reader.read_tex_coords(0).expect("texture coordinates").into_f32();
     for (p, [u, v]) in reader.read_positions().expect("positions").zip(uvs) {
-        let p = [p[0] + translation[0], p[1] + translation[1]];
+        let p = [p[0] * scale[0] + translation[0], p[1] * scale[1] + translation[1]];
         assert!(p[0] < -4.5 && p[0] > -8.5, "{p:?}");
         // The film bends, but not by half of the plate.
         assert!((-5.0 - 3.0 * u - p[0]).abs() < 0.5 && (3.0 * (1.0 - v) - p[1]).abs() < 0.5, "{p:?} has {u} {v}");

@@ -101,3 +101,19 @@ pub fn write_two_squares(folder: &Path) {
 
 /// Not an image; nobody looks.
 pub const TEXTURE: &[u8] = b"\x89PNG\r\n\x1a\n and the rest";
+
+/// A grey image of 4 by 4 texels.
+pub fn grey_png() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 4, 4);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&[190; 16])).expect("a PNG");
+    bytes
+}
+
+/// The JSON of a .glb.
+pub fn json_of(path: &Path) -> Value {
+    let bytes = fs::read(path).expect("a model");
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    serde_json::from_slice(&bytes[20..20 + length]).expect("JSON")
+}

@@ -5,7 +5,7 @@ use bevy::{
     mesh::{Indices, PrimitiveTopology, VertexAttributeValues, skinning::SkinnedMesh},
     prelude::*,
 };
-use bevy_coating::{CoatingPart, film::FilmMesh, prelude::*, surface::BuildError};
+use bevy_coating::{ATTRIBUTE_STAINS, CoatingPart, film::FilmMesh, prelude::*, surface::BuildError};
 
 use crate::common::*;
 
@@ -158,34 +158,100 @@ fn despawning_at_any_time_is_no_error() {
     let mut app = app();
     for frames in [0, 1, 2, 40] {
         let root = app.world_mut().spawn((Transform::default(), quick_coating())).id();
-        let mesh = add_mesh(&mut app, plate(6));
-        let primitives = [0, 1].map(|_| app.world_mut().spawn((Mesh3d(mesh.clone()), ChildOf(root))).id());
+        let (mesh, other) = (add_mesh(&mut app, plate(6)), add_mesh(&mut app, plate(4).translated_by(Vec3::X * 2.0)));
+        let primitives = [mesh, other].map(|mesh| app.world_mut().spawn((Mesh3d(mesh), ChildOf(root))).id());
         updates(&mut app, frames);
         app.world_mut().entity_mut(primitives[0]).despawn();
         updates(&mut app, frames);
+        // The film is of the mesh that is left, on its entity or on that of the node, and goes on ageing.
+        update_until(&mut app, |app| {
+            let films = films(app);
+            app.world().resource::<CoatingStatus>().waiting == 0
+                && films.len() == 1
+                && film_state(app, films[0].0).mesh.topology.face_count() == 32
+        });
+        let film = films(&mut app)[0];
+        assert!(film == (primitives[1], root) || film == (root, root), "after {frames} frames: {film:?}");
+        let before = film_state(&app, film.0).clock.steps;
         take_steps(&mut app, 20);
+        assert_eq!(film_state(&app, film.0).clock.steps, before + 20);
+        let parts: Vec<Entity> =
+            app.world_mut().query_filtered::<&ChildOf, With<CoatingPart>>().iter(app.world()).map(|c| c.0).collect();
+        assert!(parts.iter().all(|parent| *parent == film.0), "after {frames} frames: {parts:?}");
         app.world_mut().entity_mut(root).despawn();
         updates(&mut app, 3);
         assert!(films(&mut app).is_empty(), "after {frames} frames");
+        assert_eq!(app.world_mut().query::<&CoatingPart>().iter(app.world()).count(), 0);
     }
-    assert_eq!(app.world().resource::<CoatingStatus>().waiting, 0);
+    assert_eq!(*app.world().resource::<CoatingStatus>(), CoatingStatus::default());
+}
+
+/// A film that has taken 50 steps, and its coating changed by `change`; nothing has been updated since.
+fn changed(change: impl FnOnce(&mut Coating)) -> (App, Entity) {
+    let mut app = app();
+    let plate = spawn_plate(&mut app, 6, quick_coating().with_seed(3));
+    wait_for_films(&mut app, 1);
+    take_steps(&mut app, 50);
+    messages::<FilmReady>(&mut app);
+    change(&mut app.world_mut().get_mut::<Coating>(plate).expect("a coating"));
+    (app, plate)
 }
 
 #[test]
-fn a_changed_coating_is_followed_at_once_or_by_a_new_film() {
+fn changes_of_seven_fields_are_followed_without_a_new_film() {
+    let pace = |app: &App, film| app.world().get::<bevy_coating::FilmPace>(film).expect("a film").clone();
+    let shown =
+        |app: &App, film| app.world().resource::<Assets<Mesh>>().get(&mesh_of(app, film)).expect("a mesh").clone();
+    let followed = |change: fn(&mut Coating), is_followed: &dyn Fn(&App, Entity) -> bool| {
+        let (mut app, plate) = changed(change);
+        assert!(!is_followed(&app, plate), "nothing can have happened yet");
+        updates(&mut app, 2);
+        assert!(messages::<FilmReady>(&mut app).is_empty(), "there is no need for a new film");
+        assert_eq!(film_state(&app, plate).clock.steps, 50);
+        is_followed(&app, plate)
+    };
+    assert!(followed(|c| c.rate = 3.0, &|app, film| pace(app, film).rate == 3.0), "rate");
+    assert!(followed(|c| c.paused = true, &|app, film| pace(app, film).paused), "paused");
+    let is_high = |app: &App, film| pace(app, film).quality == SolverQuality::High;
+    assert!(followed(|c| c.quality = SolverQuality::High, &is_high), "quality");
+    let is_gentle = |app: &App, film| *pace(app, film).settings == Preset::Gentle.into();
+    assert!(followed(|c| c.settings = Preset::Gentle.into(), &is_gentle), "settings");
+    let is_plain = |app: &App, film| !shown(app, film).contains_attribute(ATTRIBUTE_STAINS);
+    assert!(followed(|c| c.stain_display = StainDisplay::None, &is_plain), "stain_display");
+    // The others need something to be seen.
+    let (mut app, plate) = changed(|c| c.stain_display = StainDisplay::VertexColor);
+    app.update();
+    let before = shown(&app, plate);
+    app.world_mut().get_mut::<Coating>(plate).expect("a coating").shading.stains.dust = Vec3::Y;
+    app.update();
+    let colors = |mesh: &Mesh| match mesh.attribute(Mesh::ATTRIBUTE_COLOR) {
+        Some(VertexAttributeValues::Float32x4(colors)) => colors.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert_ne!(colors(&shown(&app, plate)), colors(&before), "shading");
+    let (mut app, plate) = changed(|c| c.shelter = Shelter::Given);
+    app.insert_resource(CoatingWeather { rain: Vec3::NEG_Z, ..CoatingWeather::default() });
+    take_steps(&mut app, 1);
+    assert_eq!(film_state(&app, plate).clock.steps, 51, "shelter: no ray is waited for");
+}
+
+#[test]
+fn changes_of_the_other_fields_are_followed_by_a_new_film() {
+    let rebuilt = |change: fn(&mut Coating)| {
+        let (mut app, plate) = changed(change);
+        update_until(&mut app, |app| !messages::<FilmReady>(app).is_empty());
+        film_state(&app, plate)
+    };
     let mut app = app();
-    let plate = spawn_plate(&mut app, 6, quick_coating());
+    let plate = spawn_plate(&mut app, 6, quick_coating().with_seed(8));
     wait_for_films(&mut app, 1);
-    take_steps(&mut app, 50);
-    let mut coating = app.world_mut().get_mut::<Coating>(plate).expect("a coating");
-    coating.settings = CoatingSettings::preset("gentle").expect("a preset").into();
-    coating.rate = 3.0;
-    updates(&mut app, 2);
-    assert_eq!(film_state(&app, plate).clock.steps, 50, "settings and rate need no new film");
-    let pace = app.world().get::<bevy_coating::FilmPace>(plate).expect("a film");
-    assert_eq!((pace.rate, pace.settings.adhesion.decay), (3.0, 0.6));
-    app.world_mut().get_mut::<Coating>(plate).expect("a coating").seed = Some(8);
-    update_until(&mut app, |app| app.world().get::<FilmClock>(plate).is_some_and(|clock| clock.steps == 0));
+    let seeded = rebuilt(|c| *c = c.clone().with_seed(8));
+    assert_eq!(seeded.digest(), film_state(&app, plate).digest(), "seed");
+    let coarse = rebuilt(|c| c.resolution = FilmResolution::Triangles(30));
+    assert!(coarse.clock.steps == 0 && coarse.mesh.topology.face_count() < 60, "resolution");
+    assert_eq!(rebuilt(|c| c.start_age = 0.2).clock.steps, 20, "start_age");
+    let finer = rebuilt(|c| c.steps_per_age = 200);
+    assert_eq!((finer.clock.steps, finer.clock.steps_per_age), (0, 200), "steps_per_age");
 }
 
 #[test]

@@ -35,6 +35,7 @@ mod rest;
 mod seeds;
 mod settings;
 mod shelter;
+mod soak;
 mod stain_display;
 mod stains;
 #[cfg(feature = "render")]

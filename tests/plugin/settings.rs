@@ -10,16 +10,24 @@ use bevy::{
             memory::{Dir, MemoryAssetReader},
         },
     },
+    mesh::MeshPlugin,
     prelude::*,
     reflect::{GetPath, TypeRegistry, std_traits::ReflectDefault},
 };
 use bevy_coating::{
-    CoatingSettingsPlugin,
+    CoatingSettingsPlugin, CoatingWeatheringPlugin,
     settings::{CoatingSettings, Preset},
 };
 
 /// An app whose assets are the files put into the returned folder.
 fn app() -> (App, Dir) {
+    let (mut app, folder) = bare_app();
+    app.add_plugins(CoatingSettingsPlugin);
+    (app, folder)
+}
+
+/// The same without our plugin.
+fn bare_app() -> (App, Dir) {
     let folder = Dir::default();
     let root = folder.clone();
     let mut app = App::new();
@@ -27,7 +35,7 @@ fn app() -> (App, Dir) {
         AssetSourceId::Default,
         AssetSourceBuilder::new(move || Box::new(MemoryAssetReader { root: root.clone() })),
     );
-    app.add_plugins((MinimalPlugins, AssetPlugin::default(), CoatingSettingsPlugin));
+    app.add_plugins((MinimalPlugins, AssetPlugin::default()));
     (app, folder)
 }
 
@@ -76,6 +84,26 @@ fn presets_load_as_assets() {
     for (preset, handle) in handles {
         update_until(&mut app, preset.name(), |app| settings(app, &handle).is_some());
         assert_eq!(settings(&app, &handle), Some(&CoatingSettings::from(preset)));
+    }
+}
+
+#[test]
+fn the_settings_plugin_may_be_added_several_times_in_any_order() {
+    let orders: [fn(&mut App); 3] = [
+        |app| _ = app.add_plugins((CoatingSettingsPlugin, CoatingWeatheringPlugin::default())),
+        |app| _ = app.add_plugins((CoatingWeatheringPlugin::default(), CoatingSettingsPlugin)),
+        |app| _ = app.add_plugins(CoatingSettingsPlugin).add_plugins(CoatingSettingsPlugin),
+    ];
+    for add in orders {
+        let (mut app, folder) = bare_app();
+        app.add_plugins((MeshPlugin, TransformPlugin));
+        add(&mut app);
+        folder.insert_asset_text(Path::new("barrel.coating.ron"), "(tearing: (beta: 0.3))");
+        let handle = load(&mut app, "barrel.coating.ron");
+        update_until(&mut app, "load", |app| settings(app, &handle).is_some());
+        app.add_plugins(CoatingSettingsPlugin);
+        app.update();
+        assert!(settings(&app, &handle).is_some(), "what is loaded stays");
     }
 }
 

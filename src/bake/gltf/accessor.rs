@@ -69,6 +69,49 @@ impl Component {
 }
 
 impl Container<'_> {
+    /// Checks that an accessor lies in its buffer views, those of matrices too.
+    pub fn check_accessor(&self, index: usize) -> Result<(), GltfError> {
+        let from = format!("accessor {index}");
+        let accessor = lookup(&self.document.accessors, index, "accessor", &from)?;
+        let fail = |cause: String| GltfError::Accessor { accessor: index, what: "read", cause };
+        let component = Component::new(accessor.component_type)
+            .ok_or_else(|| fail(format!("component type {} does not exist", accessor.component_type)))?;
+        // Columns of matrices begin at multiples of four bytes.
+        let columns =
+            |count: usize| (count * component.size()).next_multiple_of(4) * (count - 1) + count * component.size();
+        let size = match accessor.r#type.as_str() {
+            "SCALAR" => component.size(),
+            "VEC2" => component.size() * 2,
+            "VEC3" => component.size() * 3,
+            "VEC4" => component.size() * 4,
+            "MAT2" => columns(2),
+            "MAT3" => columns(3),
+            "MAT4" => columns(4),
+            other => return Err(fail(format!("its type is {other}"))),
+        };
+        let inside = |view: usize, offset: u64, strided: bool, size: usize, count: u64| {
+            let own = lookup(&self.document.buffer_views, view, "buffer view", &from)?;
+            let stride = own.byte_stride.filter(|_| strided).unwrap_or(size as u64);
+            let before = count.saturating_sub(1).saturating_mul(stride);
+            let needed = if count == 0 { 0 } else { before.saturating_add(offset).saturating_add(size as u64) };
+            let found = self.view(view, &from)?.len() as u64;
+            if needed > found {
+                return Err(GltfError::Truncated { what: from.clone(), needed, found });
+            }
+            Ok(())
+        };
+        if let Some(view) = accessor.buffer_view {
+            inside(view, accessor.byte_offset, true, size, accessor.count)?;
+        }
+        if let Some(sparse) = &accessor.sparse {
+            let component = Component::new(sparse.indices.component_type)
+                .ok_or_else(|| fail("its sparse indices are no unsigned integers".into()))?;
+            inside(sparse.indices.buffer_view, sparse.indices.byte_offset, false, component.size(), sparse.count)?;
+            inside(sparse.values.buffer_view, sparse.values.byte_offset, false, size, sparse.count)?;
+        }
+        Ok(())
+    }
+
     /// Vectors of exactly `N` components.
     pub fn vectors<const N: usize>(&self, index: usize, what: &'static str) -> Result<Vec<[f32; N]>, GltfError> {
         let reader = Reader::new(self, index, what)?;

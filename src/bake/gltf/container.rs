@@ -2,8 +2,7 @@
 
 use std::{
     borrow::Cow,
-    fs,
-    path::{Component, Path},
+    path::{Path, PathBuf},
 };
 
 use base64::{
@@ -11,10 +10,14 @@ use base64::{
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
 
+use serde_json::{Map, Value};
+
 use super::{
     GltfError,
     document::{Document, lookup},
+    extensions,
 };
+use crate::bake::{carried::Carried, files};
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -24,6 +27,8 @@ const BINARY_CHUNK: &[u8] = b"BIN\0";
 #[derive(Debug)]
 pub struct Container<'a> {
     pub document: Document,
+    /// All of the JSON, for what ageing does not change.
+    pub root: Map<String, Value>,
     folder: Option<&'a Path>,
     buffers: Vec<Cow<'a, [u8]>>,
 }
@@ -40,7 +45,10 @@ impl<'a> Container<'a> {
         if document.asset.version.split('.').next() != Some("2") {
             return Err(GltfError::Version(document.asset.version));
         }
-        let mut container = Self { document, folder, buffers: Vec::new() };
+        // Before buffers are read: compressed files often have one that is no data.
+        extensions::check(&document.extensions_required)?;
+        let root = serde_json::from_slice(text).map_err(GltfError::Json)?;
+        let mut container = Self { document, root, folder, buffers: Vec::new() };
         for (i, buffer) in container.document.buffers.iter().enumerate() {
             let what = format!("buffer {i}");
             let bytes = match (&buffer.uri, binary) {
@@ -55,6 +63,16 @@ impl<'a> Container<'a> {
             container.buffers.push(bytes);
         }
         Ok(container)
+    }
+
+    /// The number of bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(|buffer| buffer.len() as u64).sum()
+    }
+
+    /// All of the JSON and the buffers.
+    pub fn into_carried(self) -> Carried {
+        Carried { root: self.root, buffers: self.buffers.into_iter().map(|bytes| bytes.into_owned().into()).collect() }
     }
 
     /// The bytes of a buffer view.
@@ -87,17 +105,27 @@ impl<'a> Container<'a> {
             let media = media.split(';').next().filter(|media| !media.is_empty());
             return Ok((bytes, media.map(str::to_owned)));
         }
-        let relative = String::from_utf8(percent_decode(uri)).map_err(|_| fail("it is no UTF-8".into()))?;
-        let relative = Path::new(&relative);
-        // A model may name files beside it and below, no others: no absolute paths, no `..`, no other schemes.
-        let inside = relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-        if !inside || uri.contains("://") {
-            return Err(fail("it does not lie beside the file".into()));
-        }
+        let relative = relative_path(uri).ok_or_else(|| fail("it is no relative path".into()))?;
         let folder = self.folder.ok_or_else(|| fail("it is a file of its own, and the model is none".into()))?;
-        let bytes = fs::read(folder.join(relative)).map_err(|error| fail(error.to_string()))?;
+        let path = folder.join(relative);
+        let bytes = files::read(&path).map_err(|error| fail(error.to_string()))?;
         Ok((bytes, None))
     }
+
+    /// Files that the document refers to.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let Some(folder) = self.folder else { return Vec::new() };
+        let buffers = self.document.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+        let images = self.document.images.iter().filter_map(|image| image.uri.as_deref());
+        buffers.chain(images).filter_map(relative_path).map(|path| folder.join(path)).collect()
+    }
+}
+
+/// The path of a file of its own; `None` for other addresses.
+fn relative_path(uri: &str) -> Option<PathBuf> {
+    // Paths have no scheme.
+    let is_path = !uri.contains("://") && !uri.starts_with("data:");
+    String::from_utf8(percent_decode(uri)).ok().filter(|_| is_path).and_then(|path| files::relative(&path))
 }
 
 /// JSON and binary chunk of a .glb.

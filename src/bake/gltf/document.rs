@@ -1,6 +1,8 @@
 //! Holds the part of a glTF document that ageing needs. Unknown properties are ignored, so that a fault in a part that
 //! does not matter here is none.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -62,6 +64,8 @@ pub struct Node {
     pub translation: Option<[f32; 3]>,
     pub rotation: Option<[f32; 4]>,
     pub scale: Option<[f32; 3]>,
+    #[serde(default)]
+    pub extensions: Map<String, Value>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -80,16 +84,36 @@ pub struct Primitive {
     pub targets: Vec<Value>,
 }
 
+/// Accessors by the names of attributes.
 #[derive(Debug, Deserialize)]
-#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-pub struct Attributes {
-    pub position: Option<usize>,
-    pub normal: Option<usize>,
-    pub tangent: Option<usize>,
-    pub texcoord_0: Option<usize>,
-    pub texcoord_1: Option<usize>,
-    pub texcoord_2: Option<usize>,
-    pub color_0: Option<usize>,
+pub struct Attributes(BTreeMap<String, Value>);
+
+impl Attributes {
+    /// The accessor of an attribute.
+    pub fn get(&self, name: &str) -> Option<usize> {
+        self.0.get(name)?.as_u64().and_then(|index| usize::try_from(index).ok())
+    }
+
+    /// The sets of texture coordinates that there are, ascending.
+    pub fn sets(&self) -> Vec<usize> {
+        let mut sets: Vec<usize> =
+            self.0.keys().filter_map(|name| name.strip_prefix("TEXCOORD_")?.parse().ok()).collect();
+        sets.sort_unstable();
+        sets
+    }
+
+    /// The accessor of a set of texture coordinates.
+    pub fn set(&self, set: usize) -> Option<usize> {
+        self.get(&format!("TEXCOORD_{set}"))
+    }
+
+    /// Whether there are attributes that a film does not have, but for texture coordinates and what skins need.
+    pub fn has_more(&self) -> bool {
+        let known = ["POSITION", "NORMAL", "TANGENT", "COLOR_0"];
+        let skinned =
+            |name: &str| name.starts_with("TEXCOORD_") || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+        self.0.keys().any(|name| !known.contains(&name.as_str()) && !skinned(name))
+    }
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,5 +1,7 @@
 //! Holds what can be wrong with a glTF file.
 
+use crate::bake::printable::Printable;
+
 /// Why a file is no usable glTF.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -27,10 +29,13 @@ pub enum GltfError {
     #[error("has broken JSON: {0}; export it again")]
     Json(serde_json::Error),
     /// The file requires an extension that is not supported; with its name.
-    #[error("needs the extension {0}, which is not supported; export it without (no mesh compression)")]
+    #[error("needs the extension {}, which is unknown and may change its meshes; export it without", Printable(.0))]
     Extension(String),
+    /// The file requires an extension that compresses meshes; with its name.
+    #[error("needs the extension {0}: its meshes are compressed; export it again without mesh compression")]
+    Compressed(String),
     /// Something is referred to that does not exist.
-    #[error("{from} refers to {kind} {index}, but there are only {count}; export it again")]
+    #[error("{} refers to {kind} {index}, but there are only {count}; export it again", Printable(from))]
     Dangling {
         /// Part of the file that refers to it.
         from: String,
@@ -82,7 +87,7 @@ pub enum GltfError {
         vertices: usize,
     },
     /// A position, or the transform of the node, is not finite.
-    #[error("node {node}: vertex {vertex} is not at a finite place (NaN or infinite); repair the mesh")]
+    #[error("node {}: vertex {vertex} is not at a finite place (NaN or infinite); repair the mesh", Printable(node))]
     NonFinite {
         /// Name or index of the node.
         node: String,

@@ -1,56 +1,114 @@
 //! Reads the primitives of a mesh into one surface: the paint does not care where one material ends.
 
+use std::{collections::BTreeMap, rc::Rc};
+
 use bevy_math::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
 use super::{
     GltfError,
-    container::Container,
+    cache::Cache,
+    coordinates::{Fitted, Fitting},
     document::{Mesh, Primitive, lookup},
 };
-use crate::bake::model::{ModelMesh, Slot, centred};
+use crate::bake::model::{MaterialLibrary, ModelMesh, Slot, centred};
 
 /// Most triangles a file may put into its scene.
 pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// A mesh in the space of the scene.
+#[derive(Default)]
 pub struct Placed {
     pub mesh: ModelMesh,
-    /// Primitives of points or lines, which were left out.
-    pub skipped: usize,
+    /// Index in the mesh of the primitive of each slot.
+    pub primitives: Vec<Option<usize>>,
     /// Whether there are morph targets.
     pub morphed: bool,
-    /// Whether there are texture coordinates past the second.
+    /// Whether there are attributes that are left out, and whether they are texture coordinates.
+    pub more_attributes: bool,
     pub more_uvs: bool,
+    /// Textures for which there are no coordinates.
+    pub without_coordinates: usize,
 }
 
-/// Places mesh `index` under `transform`. `node` is its name in messages.
-pub fn place(container: &Container, index: usize, transform: DMat4, node: &str) -> Result<Placed, GltfError> {
-    let mesh = lookup(&container.document.meshes, index, "mesh", &format!("node {node}"))?;
-    let mut placed = Placed { mesh: ModelMesh::default(), skipped: 0, morphed: false, more_uvs: false };
-    let primitives = read_primitives(container, index, mesh, &mut placed)?;
+/// Reads meshes and places them.
+pub struct Placing<'a> {
+    pub cache: Cache<'a>,
+    pub fitting: Fitting,
+}
+
+impl Placing<'_> {
+    /// Places mesh `index` under `transform`. `node` is its name in messages. Materials that have to be fitted are
+    /// added to the library.
+    pub fn place(
+        &mut self,
+        library: &mut MaterialLibrary,
+        index: usize,
+        transform: DMat4,
+        node: &str,
+    ) -> Result<Placed, GltfError> {
+        let document = &self.cache.container.document;
+        let mesh = lookup(&document.meshes, index, "mesh", &format!("node {node}"))?;
+        let mut placed = Placed::default();
+        let primitives = self.read_primitives(library, index, mesh, &mut placed)?;
+        fill(&mut placed, &primitives, transform, node)?;
+        Ok(placed)
+    }
+
+    fn read_primitives(
+        &mut self,
+        library: &mut MaterialLibrary,
+        index: usize,
+        mesh: &Mesh,
+        placed: &mut Placed,
+    ) -> Result<Vec<Data>, GltfError> {
+        let mut primitives = Vec::new();
+        let mut total = 0;
+        for (i, primitive) in mesh.primitives.iter().enumerate() {
+            let mode = primitive.mode.unwrap_or(4);
+            // Points and lines go on as they are.
+            if !(4..=6).contains(&mode) {
+                continue;
+            }
+            let attributes = &primitive.attributes;
+            if let Some(material) = primitive.material {
+                lookup(&self.cache.container.document.materials, material, "material", &format!("mesh {index}"))?;
+            }
+            let fitted = self.fitting.fit(library, primitive.material, attributes.sets());
+            placed.without_coordinates += fitted.left_out;
+            placed.morphed |= !primitive.targets.is_empty();
+            placed.more_uvs |= attributes.sets().into_iter().any(|set| !fitted.sets.contains(&Some(set)));
+            placed.more_attributes |= attributes.has_more();
+            let data = read_primitive(&self.cache, (index, i), primitive, mode, fitted)?;
+            total += data.triangles.len();
+            if total > MAX_TRIANGLES {
+                let what = format!("mesh {index}");
+                return Err(GltfError::TooMany { what, found: total as u64, limit: MAX_TRIANGLES as u64 });
+            }
+            primitives.push(data);
+            placed.primitives.push(Some(i));
+        }
+        Ok(primitives)
+    }
+}
+
+/// Moves primitives into the space of the scene, as one surface.
+fn fill(placed: &mut Placed, primitives: &[Data], transform: DMat4, node: &str) -> Result<(), GltfError> {
     let surface = &mut placed.mesh.surface;
     let space = Space::new(transform);
 
     // Primitives often share their vertices: each set of positions is taken once.
-    let mut bases: Vec<(usize, u32)> = Vec::new();
-    let mut positions: Vec<DVec3> = Vec::new();
-    for primitive in &primitives {
-        if bases.iter().all(|&(accessor, _)| accessor != primitive.position) {
-            bases.push((primitive.position, positions.len() as u32));
-            positions.extend(primitive.positions.iter().map(|&p| space.point(p)));
-        }
-    }
+    let sets = PositionSets::new(primitives);
+    let positions: Vec<DVec3> = sets.positions(primitives).map(|p| space.point(p)).collect();
     (surface.positions, placed.mesh.origin) = centred(&positions);
 
     let some = |has: fn(&Data) -> bool| primitives.iter().any(has);
     let (normals, tangents) = (some(|p| p.normals.is_some()), some(|p| p.tangents.is_some()));
     let (uvs, uvs_1, colors) = (some(|p| p.uvs.is_some()), some(|p| p.uvs_1.is_some()), some(|p| p.colors.is_some()));
     for (slot, primitive) in primitives.iter().enumerate() {
-        let base = bases.iter().find(|&&(accessor, _)| accessor == primitive.position).map_or(0, |&(_, base)| base);
         for &triangle in &primitive.triangles {
             let local = if space.mirrored { [triangle[0], triangle[2], triangle[1]] } else { triangle };
             let corners = local.map(|v| v as usize);
-            let vertices = local.map(|v| base + v);
+            let vertices = local.map(|v| sets.vertex(primitive.position, v));
             let points = vertices.map(|v| surface.positions[v as usize]);
             // Vertices that no triangle uses may be anywhere.
             if let Some(i) = points.iter().position(|p| !p.is_finite()) {
@@ -72,7 +130,7 @@ pub fn place(container: &Container, index: usize, transform: DMat4, node: &str) 
                 }));
             }
             // Coordinates and colours that are no numbers would spread into the whole film.
-            let uv = |uvs: &Option<Vec<[f32; 2]>>, v: usize| {
+            let uv = |uvs: &Option<Rc<[[f32; 2]]>>, v: usize| {
                 uvs.as_ref().map(|uvs| Vec2::from(uvs[v])).filter(|uv| uv.is_finite()).unwrap_or_default()
             };
             if uvs {
@@ -89,7 +147,7 @@ pub fn place(container: &Container, index: usize, transform: DMat4, node: &str) 
         }
     }
     placed.mesh.slots = primitives.iter().map(Data::slot).collect();
-    Ok(placed)
+    Ok(())
 }
 
 /// One primitive of triangles, in the mesh's own space.
@@ -97,13 +155,13 @@ struct Data {
     material: Option<usize>,
     /// Accessor of the positions.
     position: usize,
-    positions: Vec<[f32; 3]>,
+    positions: Rc<[[f32; 3]]>,
     triangles: Vec<[u32; 3]>,
-    normals: Option<Vec<[f32; 3]>>,
-    tangents: Option<Vec<[f32; 4]>>,
-    uvs: Option<Vec<[f32; 2]>>,
-    uvs_1: Option<Vec<[f32; 2]>>,
-    colors: Option<Vec<[f32; 4]>>,
+    normals: Option<Rc<[[f32; 3]]>>,
+    tangents: Option<Rc<[[f32; 4]]>>,
+    uvs: Option<Rc<[[f32; 2]]>>,
+    uvs_1: Option<Rc<[[f32; 2]]>>,
+    colors: Option<Rc<[[f32; 4]]>>,
 }
 
 impl Data {
@@ -118,80 +176,121 @@ impl Data {
     }
 }
 
-fn read_primitives(
-    container: &Container,
-    index: usize,
-    mesh: &Mesh,
-    placed: &mut Placed,
-) -> Result<Vec<Data>, GltfError> {
-    let mut primitives = Vec::new();
-    let mut total = 0;
-    for (i, primitive) in mesh.primitives.iter().enumerate() {
-        placed.morphed |= !primitive.targets.is_empty();
-        placed.more_uvs |= primitive.attributes.texcoord_2.is_some();
-        let mode = primitive.mode.unwrap_or(4);
-        if !(4..=6).contains(&mode) {
-            placed.skipped += 1;
-            continue;
-        }
-        let data = read_primitive(container, (index, i), primitive, mode)?;
-        total += data.triangles.len();
-        if total > MAX_TRIANGLES {
-            let what = format!("mesh {index}");
-            return Err(GltfError::TooMany { what, found: total as u64, limit: MAX_TRIANGLES as u64 });
-        }
-        primitives.push(data);
-    }
-    Ok(primitives)
-}
-
 fn read_primitive(
-    container: &Container,
+    cache: &Cache,
     (mesh, index): (usize, usize),
     primitive: &Primitive,
     mode: u32,
+    fitted: Fitted,
 ) -> Result<Data, GltfError> {
     let attributes = &primitive.attributes;
-    let position = attributes.position.ok_or(GltfError::NoPositions { mesh, primitive: index })?;
-    let positions = container.vectors::<3>(position, "positions")?;
+    let position = attributes.get("POSITION").ok_or(GltfError::NoPositions { mesh, primitive: index })?;
+    let positions = cache.triples(position, "positions")?;
     let vertices = positions.len();
-    if let Some(material) = primitive.material {
-        lookup(&container.document.materials, material, "material", &format!("mesh {mesh}"))?;
-    }
     let list = match primitive.indices {
-        Some(indices) => container.indices(indices)?,
+        Some(indices) => cache.indices(indices)?,
         None => (0..vertices as u32).collect(),
     };
     if let Some(&found) = list.iter().find(|&&v| v as usize >= vertices) {
         return Err(GltfError::IndexOutOfRange { mesh, primitive: index, index: found, vertices });
     }
     // An attribute has one element a vertex.
-    fn whole<T>(found: Vec<T>, accessor: usize, what: &'static str, vertices: usize) -> Result<Vec<T>, GltfError> {
+    fn whole<T>(found: Rc<[T]>, accessor: usize, what: &'static str, vertices: usize) -> Result<Rc<[T]>, GltfError> {
         if found.len() < vertices {
             let cause = format!("it has {} elements for {vertices} vertices", found.len());
             return Err(GltfError::Accessor { accessor, what, cause });
         }
         Ok(found)
     }
-    fn vectors<const N: usize>(
-        container: &Container,
-        accessor: Option<usize>,
-        what: &'static str,
-        vertices: usize,
-    ) -> Result<Option<Vec<[f32; N]>>, GltfError> {
-        accessor.map(|a| whole(container.vectors::<N>(a, what)?, a, what, vertices)).transpose()
-    }
+    let pairs = |set: Option<usize>| -> Result<Option<Rc<[[f32; 2]]>>, GltfError> {
+        let what = "texture coordinates";
+        let accessor = set.and_then(|set| attributes.set(set));
+        accessor.map(|a| whole(cache.pairs(a, what)?, a, what, vertices)).transpose()
+    };
+    let (normal, tangent, color) = (attributes.get("NORMAL"), attributes.get("TANGENT"), attributes.get("COLOR_0"));
+    let tangents = "tangents";
+    let colors = "vertex colours";
     Ok(Data {
-        material: primitive.material,
+        material: fitted.material,
         position,
         triangles: triangles(&list, mode),
-        normals: vectors(container, attributes.normal, "normals", vertices)?,
-        tangents: vectors(container, attributes.tangent, "tangents", vertices)?,
-        uvs: vectors(container, attributes.texcoord_0, "texture coordinates", vertices)?,
-        uvs_1: vectors(container, attributes.texcoord_1, "texture coordinates", vertices)?,
-        colors: attributes.color_0.map(|a| whole(container.colors(a)?, a, "vertex colours", vertices)).transpose()?,
+        normals: normal.map(|a| whole(cache.triples(a, "normals")?, a, "normals", vertices)).transpose()?,
+        tangents: tangent.map(|a| whole(cache.quadruples(a, tangents)?, a, tangents, vertices)).transpose()?,
+        uvs: pairs(fitted.sets[0])?,
+        uvs_1: pairs(fitted.sets[1])?,
+        colors: color.map(|a| whole(cache.colors(a, colors)?, a, colors, vertices)).transpose()?,
         positions,
     })
+}
+
+/// The sets of positions that primitives have, one after the other.
+struct PositionSets(BTreeMap<usize, PositionSet>);
+
+/// One set of positions.
+struct PositionSet {
+    /// A primitive that has it.
+    primitive: usize,
+    /// Place of its first vertex.
+    base: u32,
+    /// Vertices that are taken, and the place of each among them; empty if all are.
+    used: Vec<u32>,
+    places: Vec<u32>,
+}
+
+impl PositionSets {
+    /// Takes whole sets, but for those that primitives use less than half of: many meshes may share one large set.
+    fn new(primitives: &[Data]) -> Self {
+        let mut sets: BTreeMap<usize, PositionSet> = BTreeMap::new();
+        let mut order = Vec::new();
+        for (i, primitive) in primitives.iter().enumerate() {
+            let set = sets.entry(primitive.position).or_insert_with(|| {
+                order.push(primitive.position);
+                PositionSet {
+                    primitive: i,
+                    base: 0,
+                    used: Vec::new(),
+                    places: vec![u32::MAX; primitive.positions.len()],
+                }
+            });
+            for &v in primitive.triangles.iter().flatten() {
+                if let Some(place) = set.places.get_mut(v as usize) {
+                    *place = 0;
+                }
+            }
+        }
+        let mut base = 0;
+        for accessor in order {
+            let Some(set) = sets.get_mut(&accessor) else { continue };
+            set.base = base;
+            let all = set.places.len();
+            set.used = (0..all as u32).filter(|&v| set.places[v as usize] == 0).collect();
+            if set.used.len() * 2 >= all {
+                (set.used, set.places) = (Vec::new(), Vec::new());
+                base += all as u32;
+            } else {
+                set.used.iter().enumerate().for_each(|(place, &v)| set.places[v as usize] = place as u32);
+                base += set.used.len() as u32;
+            }
+        }
+        Self(sets)
+    }
+
+    /// Positions of all sets, in the order of the primitives that have them first.
+    fn positions<'b>(&'b self, primitives: &'b [Data]) -> impl Iterator<Item = [f32; 3]> + 'b {
+        let mut sets: Vec<&PositionSet> = self.0.values().collect();
+        sets.sort_by_key(|set| set.primitive);
+        sets.into_iter().flat_map(move |set| {
+            let all: &[[f32; 3]] = primitives.get(set.primitive).map_or(&[], |primitive| &primitive.positions);
+            let whole = if set.places.is_empty() { all } else { &[] };
+            whole.iter().copied().chain(set.used.iter().filter_map(|&v| all.get(v as usize).copied()))
+        })
+    }
+
+    /// Place of vertex `v` of the set of an accessor.
+    fn vertex(&self, accessor: usize, v: u32) -> u32 {
+        let Some(set) = self.0.get(&accessor) else { return 0 };
+        set.base + set.places.get(v as usize).copied().unwrap_or(v)
+    }
 }
 
 /// Triangles of a list (mode 4), strip (5) or fan (6), as glTF 2.0 section 3.7.2.1 defines them.

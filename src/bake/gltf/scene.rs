@@ -4,11 +4,17 @@ use bevy_math::{DMat4, DQuat, DVec3};
 
 use super::{
     GltfError,
+    cache::Cache,
     container::Container,
+    coordinates::Fitting,
     document::{Node, lookup},
-    mesh::{self, MAX_TRIANGLES},
+    instances,
+    mesh::{MAX_TRIANGLES, Placed, Placing},
 };
-use crate::bake::{model::Model, warning::BakeWarning};
+use crate::bake::{
+    model::{Instance, Model, ModelMesh, Place},
+    warning::BakeWarning,
+};
 
 /// Reads the meshes of the default scene: the one the file names, else its first; all nodes of a file without
 /// scenes.
@@ -23,6 +29,7 @@ pub fn read_meshes(container: &Container, model: &mut Model) -> Result<(), GltfE
     };
     let mut visited = vec![false; document.nodes.len()];
     let mut total = 0;
+    let mut placing = Placing { cache: Cache::new(container), fitting: Fitting::default() };
     // A stack, not recursion: a chain of nodes may be as deep as its file is long. Last in, first out, so
     // children are pushed in reverse.
     let mut stack: Vec<_> = roots.iter().rev().map(|&root| (root, DMat4::IDENTITY)).collect();
@@ -34,32 +41,69 @@ pub fn read_meshes(container: &Container, model: &mut Model) -> Result<(), GltfE
         let transform = parent * local_transform(node);
         stack.extend(node.children.iter().rev().map(|&child| (child, transform)));
         if let Some(mesh) = node.mesh {
-            total += read_node(container, model, node, mesh, transform)?;
+            total += read_node(&mut placing, model, (index, node), mesh, transform)?;
             if total > MAX_TRIANGLES {
                 let what = "the scene".into();
                 return Err(GltfError::TooMany { what, found: total as u64, limit: MAX_TRIANGLES as u64 });
             }
         }
     }
+    let others =
+        document.nodes.iter().zip(&visited).filter(|(node, visited)| node.mesh.is_some() && !**visited).count();
+    if others > 0 {
+        model.warnings.push(BakeWarning::OutsideScene { count: others });
+    }
     Ok(())
 }
 
 /// Reads one node's mesh and returns its number of triangles.
 fn read_node(
-    container: &Container,
+    placing: &mut Placing,
     model: &mut Model,
-    node: &Node,
+    (index, node): (usize, &Node),
     mesh: usize,
     transform: DMat4,
 ) -> Result<usize, GltfError> {
-    let unnamed = || format!("mesh {mesh}");
-    let mesh_name = || container.document.meshes.get(mesh).and_then(|mesh| mesh.name.clone());
-    let name = node.name.clone().or_else(mesh_name).unwrap_or_else(unnamed);
-    let mut placed = mesh::place(container, mesh, transform, &name)?;
-    let mesh = || name.clone();
-    if placed.skipped > 0 {
-        model.warnings.push(BakeWarning::PrimitivesSkipped { mesh: mesh(), count: placed.skipped });
+    let document = &placing.cache.container.document;
+    let mesh_name = || document.meshes.get(mesh).and_then(|mesh| mesh.name.clone());
+    let name = node.name.clone().or_else(mesh_name).unwrap_or_else(|| format!("mesh {mesh}"));
+    let Some(instances) = instances::read(&placing.cache, node)? else {
+        let placed = placing.place(&mut model.materials, mesh, transform, &name)?;
+        return Ok(add(model, placed, &name, node, Place { node: index, mesh, transform, ..none() }));
+    };
+    let mut triangles = 0;
+    for instance in &instances {
+        let transform = transform * instances::transform(instance);
+        let name = format!("{name} {}", instance.index + 1);
+        let placed = placing.place(&mut model.materials, mesh, transform, &name)?;
+        triangles += add(model, placed, &name, node, Place { node: index, mesh, transform, ..of(instance) });
+        if triangles > MAX_TRIANGLES {
+            let (found, limit) = (triangles as u64, MAX_TRIANGLES as u64);
+            return Err(GltfError::TooMany { what: format!("the instances of node {index}"), found, limit });
+        }
     }
+    if triangles > 0 {
+        let more = instances::have_more(node);
+        model.warnings.push(BakeWarning::Instances { mesh: name, count: instances.len(), more });
+    }
+    Ok(triangles)
+}
+
+fn none() -> Place {
+    Place { node: 0, mesh: 0, primitives: Vec::new(), transform: DMat4::IDENTITY, instance: None }
+}
+
+fn of(instance: &Instance) -> Place {
+    Place { instance: Some(*instance), ..none() }
+}
+
+/// Adds a mesh to the model, if it has triangles; returns their number.
+fn add(model: &mut Model, placed: Placed, name: &str, node: &Node, place: Place) -> usize {
+    let triangles = placed.mesh.surface.triangles.len();
+    if triangles == 0 {
+        return 0;
+    }
+    let mesh = || name.to_owned();
     if placed.morphed {
         model.warnings.push(BakeWarning::Morphed { mesh: mesh() });
     }
@@ -69,12 +113,16 @@ fn read_node(
     if placed.more_uvs {
         model.warnings.push(BakeWarning::ExtraTextureCoordinates { mesh: mesh() });
     }
-    let triangles = placed.mesh.surface.triangles.len();
-    if triangles > 0 {
-        placed.mesh.name = name;
-        model.meshes.push(placed.mesh);
+    if placed.more_attributes {
+        model.warnings.push(BakeWarning::ExtraAttributes { mesh: mesh() });
     }
-    Ok(triangles)
+    if placed.without_coordinates > 0 {
+        let count = placed.without_coordinates;
+        model.warnings.push(BakeWarning::TexturesWithoutCoordinates { mesh: mesh(), count });
+    }
+    let place = Some(Place { primitives: placed.primitives, ..place });
+    model.meshes.push(ModelMesh { name: mesh(), place, ..placed.mesh });
+    triangles
 }
 
 /// Nodes that are no node's child.

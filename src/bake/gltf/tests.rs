@@ -194,8 +194,8 @@ fn primitives_share_vertices_and_fill_in_what_one_lacks() {
     assert_eq!(mesh.slots[0], crate::bake::model::Slot { material: Some(1), uvs: true, ..Default::default() });
     assert_eq!(mesh.slots[1], crate::bake::model::Slot::default());
     assert_eq!(model.materials.materials[1]["extensions"]["VENDOR_glitter"]["amount"], 3);
-    assert_eq!(model.warnings.len(), 1);
-    assert_eq!(model.warnings[0].to_string(), "square: 1 primitives of points or lines are left out");
+    assert!(model.warnings.is_empty(), "lines go on as they are: {:?}", model.warnings);
+    assert_eq!(mesh.place.as_ref().map(|place| place.primitives.clone()), Some(vec![Some(0), Some(1)]));
 }
 
 #[test]
@@ -205,6 +205,47 @@ fn buffers_in_data_uris() {
     document["buffers"][0]["uri"] = format!("data:application/octet-stream;base64,{text}").into();
     let model = super::read(document.to_string().as_bytes(), None, Images::Skip).unwrap();
     assert_eq!(area_vector(&model), Vec3::Z);
+}
+
+/// Programs declare `image/jpg`, or one kind for the bytes of the other. Files begin with a byte order mark.
+#[test]
+fn images_are_known_by_their_bytes() {
+    let (mut document, binary) = square(4, &[0, 1, 2]);
+    let uri = |media: &str, bytes: &[u8]| format!("data:{media};base64,{}", STANDARD.encode(bytes));
+    let jpeg = [0xff, 0xd8, 0xff, 0xe0];
+    document["images"] = json!([
+        { "uri": uri("image/jpg", &jpeg), "mimeType": "image/jpg" },
+        { "uri": uri("image/png", &jpeg), "mimeType": "image/png" },
+        { "uri": uri("image/jpeg", b"\x89PNG\r\n\x1a\n") },
+        { "uri": uri("image/vendor", b"what nobody knows") }
+    ]);
+    document["buffers"][0]["uri"] = uri("", &binary).into();
+    let text = format!("\u{feff}{document}");
+    let model = super::read(text.as_bytes(), None, Images::Load).unwrap();
+    let types: Vec<&str> = model.materials.images.iter().map(|image| image.mime_type.as_str()).collect();
+    assert_eq!(types, ["image/jpeg", "image/jpeg", "image/png", "image/vendor"]);
+}
+
+/// What lies beside the folder is the user's own; images are not worth an error.
+#[test]
+fn files_lead_out_of_the_folder_and_images_may_be_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let models = folder.path().join("models");
+    std::fs::create_dir(&models).unwrap();
+    let (mut document, binary) = square(4, &[0, 1, 2]);
+    std::fs::write(folder.path().join("a b.bin"), &binary).unwrap();
+    std::fs::write(folder.path().join("there.png"), b"\x89PNG").unwrap();
+    document["buffers"][0]["uri"] = "../a%20b.bin".into();
+    document["images"] = json!([{ "uri": "../there.png" }, { "uri": "../gone.png" }, { "uri": "/gone.png" }]);
+    let read = |images| super::read(document.to_string().as_bytes(), Some(&models), images).unwrap();
+    let model = read(Images::Load);
+    let lengths: Vec<usize> = model.materials.images.iter().map(|image| image.bytes.len()).collect();
+    assert_eq!(lengths, [4, 0, 0]);
+    assert_eq!(model.materials.images[1].rest["uri"], "../gone.png");
+    let [warning] = model.warnings.as_slice() else { panic!("{:?}", model.warnings) };
+    assert!(warning.to_string().starts_with("2 images cannot be read"), "{warning}");
+    assert_eq!(model.files.len(), 3, "{:?}", model.files);
+    assert!(read(Images::Skip).warnings.is_empty());
 }
 
 /// Every way to be wrong is an error that says what is wrong.
@@ -217,7 +258,7 @@ fn faults_are_named() {
         change(&mut document);
         read(&document, &binary).expect_err("a fault").to_string()
     };
-    let cases: [(&dyn Fn(&mut Value), &str); 15] = [
+    let cases: [(&dyn Fn(&mut Value), &str); 17] = [
         (&|d| d["asset"]["version"] = "1.0".into(), "is glTF 1.0"),
         (&|d| d["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
         (&|d| d["scene"] = 7.into(), "refers to scene 7"),
@@ -240,7 +281,9 @@ fn faults_are_named() {
         (&|d| d["accessors"][0]["type"] = "VEC2".into(), "not VEC3"),
         (&|d| d["accessors"][1]["componentType"] = 5126.into(), "no unsigned integers"),
         (&|d| d["bufferViews"][0]["byteOffset"] = u64::MAX.into(), "is cut off"),
-        (&|d| d["buffers"][0]["uri"] = "../../etc/passwd".into(), "does not lie beside"),
+        (&|d| d["buffers"][0]["uri"] = "/etc/passwd".into(), "no relative path"),
+        (&|d| d["buffers"][0]["uri"] = "https://example.com/a.bin".into(), "no relative path"),
+        (&|d| d["buffers"][0]["uri"] = "../a.bin".into(), "the model is none"),
     ];
     for (change, expected) in cases {
         let message = fault(change);

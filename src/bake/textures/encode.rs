@@ -1,7 +1,12 @@
 //! Encodes textures as PNG.
 
-use super::sheet::Sheet;
-use crate::bake::parallel;
+use bevy_math::UVec2;
+
+use super::{
+    sheet::Sheet,
+    texture::{MAX_TEXELS, Texture},
+};
+use crate::bake::{model::Image, parallel};
 
 /// A set of textures, encoded.
 #[derive(Clone, Debug, Default)]
@@ -32,9 +37,21 @@ impl Encoded {
     }
 }
 
+/// A white image with the alpha of another; `None` if that cannot be decoded.
+pub fn white_with_alpha(image: &Image) -> Option<Vec<u8>> {
+    let texture = Texture::decode(image, true, MAX_TEXELS).ok()?;
+    let texels: Vec<u8> = texture.pixels().iter().flat_map(|&[_, _, _, alpha]| [255, alpha]).collect();
+    let UVec2 { x, y } = texture.size();
+    Some(png_of([x, y], png::ColorType::GrayscaleAlpha, &texels))
+}
+
 fn png(size: u32, color: png::ColorType, bytes: &[u8]) -> Vec<u8> {
+    png_of([size, size], color, bytes)
+}
+
+fn png_of([width, height]: [u32; 2], color: png::ColorType, bytes: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, size, size);
+    let mut encoder = png::Encoder::new(&mut file, width, height);
     encoder.set_color(color);
     encoder.set_depth(png::BitDepth::Eight);
     // A tenth larger than balanced, in a fifth of the time.

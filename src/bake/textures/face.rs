@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use bevy_math::{Mat2, Vec3};
 
 use super::{
-    Base, Cover, Primitive, Textures, colors,
+    Base, Cover, Primitive, Textures,
+    bare::Bare,
+    colors,
     finish::Finish,
     frames, kept,
     sheet::{Ground, Patch, Stains},
@@ -35,15 +37,17 @@ pub struct Face<'a> {
     pub base: Base,
     /// Attributes of the prop's own.
     has: Slot,
-    /// The prop's own shading, where there is one that can be read.
+    /// The prop's own shading, where there is one that can be read; of backs and metal the one whose mask holds.
     finish: Option<Finish>,
+    /// Material of the prop whose mask holds for backs or metal.
+    mask: Option<usize>,
     /// Whether textures that go on as they are use first, or second coordinates.
     kept: [bool; 2],
 }
 
 impl<'a> Face<'a> {
     /// All parts of a prop that have triangles: fronts, backs, metal.
-    pub fn all(prop: &Prop, appearance: &'a FilmAppearance) -> Vec<Self> {
+    pub fn all(prop: &Prop, appearance: &'a FilmAppearance, bare: &'a Bare) -> Vec<Self> {
         let fronts = prop.slots.iter().enumerate().filter_map(|(i, &has)| {
             Some(Self {
                 part: appearance.front(i)?,
@@ -51,19 +55,17 @@ impl<'a> Face<'a> {
                 base: Base::Own(has.material),
                 has,
                 finish: None,
+                mask: None,
                 kept: [false; 2],
             })
         });
-        // Without textures of their own they need no coordinates.
-        let slots = || 0..appearance.slot_count();
-        let backs = slots().filter_map(|slot| Some((Base::Primer, appearance.backs(slot)?)));
-        let metal = slots().filter_map(|slot| Some((Base::Metal, appearance.metal(slot)?)));
-        let bare = backs.chain(metal).map(|(base, part)| Self {
-            part,
+        let bare = bare.parts().iter().map(|bare| Self {
+            part: &bare.part,
             slot: None,
-            base,
-            has: Slot::default(),
+            base: bare.base,
+            has: bare.has,
             finish: None,
+            mask: bare.mask,
             kept: [false; 2],
         });
         fronts.chain(bare).filter(|face| !face.part.is_empty()).collect()
@@ -71,7 +73,11 @@ impl<'a> Face<'a> {
 
     /// Reads the prop's own shading.
     pub fn read_finish(&mut self, library: &MaterialLibrary, textures: &mut Textures) -> Result<(), Unreadable> {
-        let Base::Own(material) = self.base else { return Ok(()) };
+        let Base::Own(material) = self.base else {
+            // The paint's own warning is enough.
+            self.finish = self.mask.and_then(|mask| Finish::new(library, textures, Some(mask)).ok());
+            return Ok(());
+        };
         if let Some(material) = material.and_then(|m| library.materials.get(m)) {
             self.kept = kept::sets(&kept::without_baked(material));
         }
@@ -95,27 +101,42 @@ impl<'a> Face<'a> {
 
     /// The primitive without stains.
     pub fn untouched(&self) -> Primitive<'a> {
-        Primitive { part: Cow::Borrowed(self.part), has: self.has, base: self.base, cover: Cover::Plain }
+        let part = match (self.slot, self.part.colors.is_empty()) {
+            (None, false) => Cow::Owned(MeshPart { colors: self.white(), ..self.part.clone() }),
+            _ => Cow::Borrowed(self.part),
+        };
+        self.primitive(part, self.has, Cover::Plain)
+    }
+
+    fn primitive<'b>(&self, part: Cow<'b, MeshPart>, has: Slot, cover: Cover) -> Primitive<'b> {
+        Primitive { part, has, base: self.base, cover, slot: self.slot, mask: self.mask }
+    }
+
+    /// White with the prop's own alpha.
+    fn white(&self) -> Vec<[f32; 4]> {
+        self.part.colors.iter().map(|&[_, _, _, alpha]| [1.0, 1.0, 1.0, alpha]).collect()
     }
 
     /// The primitive with stains in its vertex colours. `footprint` is the distance of vertices, in metres.
     pub fn colored(&self, stains: &Stains, footprint: f32) -> Primitive<'a> {
-        let bare = match (self.ground(), &self.finish) {
-            (Some(Ground::Back(primer)), _) => {
+        let bare = match self.ground() {
+            Some(Ground::Back(primer)) => {
                 colors::bare(self.part, stains, footprint, |s, p| stains.shading.back(primer, s, p))
             }
-            (Some(Ground::Metal), _) => colors::bare(self.part, stains, footprint, |s, p| stains.shading.metal(s, p)),
-            (_, Some(finish)) => {
+            Some(Ground::Metal) => colors::bare(self.part, stains, footprint, |s, p| stains.shading.metal(s, p)),
+            Some(Ground::Film(finish)) => {
                 let colors = colors::film(self.part, finish, stains, footprint);
                 let part = Cow::Owned(MeshPart { colors, ..self.part.clone() });
                 let cover = if finish.is_textured() { Cover::Plain } else { Cover::Colors(None) };
-                return Primitive { part, has: Slot { colors: true, ..self.has }, base: self.base, cover };
+                return self.primitive(part, Slot { colors: true, ..self.has }, cover);
             }
             _ => return self.untouched(),
         };
-        let part = Cow::Owned(MeshPart { colors: bare.colors, ..self.part.clone() });
+        let mut colors = bare.colors;
+        colors.iter_mut().zip(&self.part.colors).for_each(|(color, own)| color[3] = own[3]);
+        let part = Cow::Owned(MeshPart { colors, ..self.part.clone() });
         let cover = Cover::Colors(Some([bare.metallic, bare.roughness]));
-        Primitive { part, has: Slot { colors: true, ..self.has }, base: self.base, cover }
+        self.primitive(part, Slot { colors: true, ..self.has }, cover)
     }
 
     fn ground(&self) -> Option<Ground<'_>> {
@@ -165,13 +186,15 @@ impl<'a> Face<'a> {
 
     /// Tangents of the prop's own normal texture; empty if it has none.
     fn own_tangents(&self, part: &MeshPart) -> Vec<[f32; 4]> {
-        match &self.finish {
-            Some(finish) if finish.has_relief() && self.has.tangents => part.tangents.clone(),
-            Some(finish) if finish.has_relief() => {
-                let uvs = if finish.relief_set() == 0 { &part.uvs } else { &part.uvs_1 };
-                frames::tangents(part, uvs, &part.indices)
-            }
-            _ => Vec::new(),
+        let Some(finish) = self.finish.as_ref().filter(|finish| self.slot.is_some() && finish.has_relief()) else {
+            return Vec::new();
+        };
+        let uvs = if finish.relief_set() == 0 { &part.uvs } else { &part.uvs_1 };
+        match self.has.tangents {
+            true => part.tangents.clone(),
+            // Without coordinates there are no directions.
+            false if uvs.len() < part.positions.len() => Vec::new(),
+            false => frames::tangents(part, uvs, &part.indices),
         }
     }
 }
@@ -198,6 +221,7 @@ impl<'a> LaidOut<'a> {
         };
         Patch {
             ground: self.ground,
+            mask: self.face.finish.as_ref().filter(|_| self.face.mask.is_some()),
             part: &self.part,
             uvs: &self.uvs,
             charts: &self.charts,
@@ -219,6 +243,6 @@ impl<'a> LaidOut<'a> {
         part.tangents = self.tangents;
         let has = Slot { uvs: true, tangents: true, colors: false, uvs_1: moved || second && has.uvs_1, ..has };
         let cover = Cover::Textures { sheet, moved };
-        Primitive { part: Cow::Owned(part), has, base: self.face.base, cover }
+        self.face.primitive(Cow::Owned(part), has, cover)
     }
 }

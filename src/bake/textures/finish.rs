@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use bevy_math::{Affine2, Vec2, Vec3, Vec4};
 use serde_json::Value;
 
-use super::texture::{Texture, Wrap};
+use super::texture::{MAX_TEXELS, Texture, Wrap};
 use crate::{appearance::shading::SurfaceShading, bake::model::MaterialLibrary};
 
 /// Reflectance of glTF's dielectrics, 4 %, as `StandardMaterial` has it.
@@ -13,7 +13,29 @@ const REFLECTANCE: f32 = 0.5;
 
 /// Decoded images of a library.
 #[derive(Default)]
-pub struct Textures(BTreeMap<(usize, bool), Result<Arc<Texture>, String>>);
+pub struct Textures {
+    /// By number, and whether their colours are sRGB.
+    decoded: BTreeMap<(usize, bool), Result<Arc<Texture>, String>>,
+    /// Texels of all of them.
+    texels: u64,
+}
+
+impl Textures {
+    fn image(&mut self, library: &MaterialLibrary, source: usize, srgb: bool) -> Result<Arc<Texture>, String> {
+        if let Some(known) = self.decoded.get(&(source, srgb)) {
+            return known.clone();
+        }
+        let decoded = library.images.get(source).ok_or_else(|| "an image is missing".into()).and_then(|image| {
+            let texture = Texture::decode(image, srgb, MAX_TEXELS.saturating_sub(self.texels));
+            texture.map(Arc::new).map_err(|cause| {
+                format!("image {} ({source}): {cause}", image.name.as_deref().unwrap_or("without a name"))
+            })
+        });
+        self.texels += decoded.as_ref().map_or(0, |texture| texture.texels());
+        self.decoded.insert((source, srgb), decoded.clone());
+        decoded
+    }
+}
 
 /// A material of the prop, without stains.
 #[derive(Clone, Debug)]
@@ -133,14 +155,8 @@ impl Map {
             Vec2::new(part(0), part(1))
         };
         let angle = moved["rotation"].as_f64().map_or(0.0, |x| x as f32);
-        let image = textures.0.entry((source, srgb)).or_insert_with(|| {
-            let image = library.images.get(source).ok_or("an image is missing")?;
-            Texture::decode(image, srgb).map(Arc::new).map_err(|cause| {
-                format!("image {} ({source}): {cause}", image.name.as_deref().unwrap_or("without a name"))
-            })
-        });
         Ok(Self {
-            texture: image.clone()?,
+            texture: textures.image(library, source, srgb)?,
             set: index(&moved["texCoord"]).or_else(|| index(&info["texCoord"])).unwrap_or(0).min(1),
             // The rotation is counter-clockwise where v runs upwards.
             transform: Affine2::from_scale_angle_translation(

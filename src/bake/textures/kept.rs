@@ -1,6 +1,8 @@
 //! Keeps the textures of a material that are not baked: emission, occlusion, and those of extensions.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
+
+use crate::bake::texture_refs::{retain, set_of, use_set, visit};
 
 /// The material without the textures and factors that are baked.
 pub fn without_baked(material: &Value) -> Value {
@@ -21,11 +23,7 @@ pub fn without_baked(material: &Value) -> Value {
 /// Whether any of a material's textures uses first, and second or later texture coordinates.
 pub fn sets(material: &Value) -> [bool; 2] {
     let mut found = [false; 2];
-    let mut material = material.clone();
-    retain(&mut material, &mut |info| {
-        found[set_of(info).min(1) as usize] = true;
-        true
-    });
+    visit(material, &mut |info| found[set_of(info).min(1) as usize] = true);
     found
 }
 
@@ -34,37 +32,10 @@ pub fn move_to_second(material: &mut Value) {
     retain(material, &mut |info| {
         let first = set_of(info) == 0;
         if first {
-            info.insert("texCoord".into(), 1.into());
-            if let Some(moved) = info.get_mut("extensions").and_then(|e| e.get_mut("KHR_texture_transform"))
-                && !moved["texCoord"].is_null()
-            {
-                moved["texCoord"] = 1.into();
-            }
+            use_set(info, 1);
         }
         first
     });
-}
-
-/// The texture coordinates that a texture uses.
-fn set_of(info: &Map<String, Value>) -> u64 {
-    let moved = info.get("extensions").and_then(|e| e["KHR_texture_transform"]["texCoord"].as_u64());
-    moved.or_else(|| info.get("texCoord")?.as_u64()).unwrap_or(0)
-}
-
-/// Walks through all references to textures and removes those that `keep` does not want.
-fn retain(value: &mut Value, keep: &mut impl FnMut(&mut Map<String, Value>) -> bool) {
-    match value {
-        Value::Object(fields) => fields.retain(|key, value| {
-            let info = value.as_object_mut().filter(|info| key.ends_with("Texture") && info.contains_key("index"));
-            if info.is_some_and(|info| !keep(info)) {
-                return false;
-            }
-            retain(value, keep);
-            true
-        }),
-        Value::Array(values) => values.iter_mut().for_each(|value| retain(value, keep)),
-        _ => {}
-    }
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 //!
 //! Everything is laid out as it is at rest, so a model's textures lie the same at any age of its flakes.
 
+mod bare;
 mod boxes;
 mod charts;
 mod colors;
@@ -48,9 +49,11 @@ use face::{Face, Unreadable};
 use layout::textured;
 use sheet::Stains;
 
-pub use encode::Encoded;
+pub use bare::Bare;
+pub use encode::{Encoded, white_with_alpha};
 pub use finish::Textures;
-pub use kept::{move_to_second, sets as texture_sets, without_baked};
+pub use kept::{move_to_second, without_baked};
+pub use texture::{MAX_TEXELS, Texture};
 
 /// A mesh primitive to be written.
 pub struct Primitive<'a> {
@@ -59,6 +62,10 @@ pub struct Primitive<'a> {
     pub has: Slot,
     pub base: Base,
     pub cover: Cover,
+    /// Slot of the prop; `None` for backs and metal.
+    pub slot: Option<usize>,
+    /// Material of the prop whose alpha mask holds for backs or metal.
+    pub mask: Option<usize>,
 }
 
 /// Stuff that a primitive's material is derived from.
@@ -68,6 +75,13 @@ pub enum Base {
     Own(Option<usize>),
     Primer,
     Metal,
+}
+
+impl Base {
+    /// The material of the prop that it is.
+    pub fn own(self) -> Option<usize> {
+        if let Self::Own(own) = self { own } else { None }
+    }
 }
 
 /// Change of a primitive's material.
@@ -98,13 +112,13 @@ pub struct Dressed<'a> {
 pub fn dress<'a>(
     prop: &Prop,
     film: &FilmState,
-    appearance: &'a FilmAppearance,
+    (appearance, bare): (&'a FilmAppearance, &'a Bare),
     library: &MaterialLibrary,
     textures: &mut Textures,
     output: StainOutput,
 ) -> Dressed<'a> {
     let mut dressed = Dressed::default();
-    let mut faces = Face::all(prop, appearance);
+    let mut faces = Face::all(prop, appearance, bare);
     if output == StainOutput::None {
         dressed.primitives.extend(faces.iter().map(Face::untouched));
         return dressed;

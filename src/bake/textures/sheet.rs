@@ -34,6 +34,8 @@ pub enum Ground<'a> {
 /// A part and where its triangles lie in the texture.
 pub struct Patch<'a> {
     pub ground: Ground<'a>,
+    /// Paint whose alpha mask holds for backs and metal.
+    pub mask: Option<&'a Finish>,
     /// The part, with its own first and second texture coordinates.
     pub part: &'a MeshPart,
     /// Places in the texture, 0 to 1.
@@ -142,7 +144,10 @@ impl Sheet {
         dilate::fill(&mut surface, &owners, &sources);
         let sources = dilate::sources(&inner, side, padding + 1);
         dilate::fill(&mut normals, &inner, &sources);
-        let transparent = patches.iter().any(|p| matches!(p.ground, Ground::Film(finish) if finish.transparent));
+        let transparent = patches.iter().any(|patch| match patch.ground {
+            Ground::Film(finish) => finish.transparent,
+            _ => patch.mask.is_some(),
+        });
         Self { size, base, surface, normals, transparent }
     }
 }
@@ -187,9 +192,18 @@ impl Triangle<'_> {
                 let (base, alpha) = finish.shading(&self.place(weights));
                 (stains.shading.film(base, &sample, &pattern), alpha)
             }
-            Ground::Back(primer) => (stains.shading.back(primer, &sample, &pattern), 1.0),
-            Ground::Metal => (stains.shading.metal(&sample, &pattern), 1.0),
+            Ground::Back(primer) => (stains.shading.back(primer, &sample, &pattern), self.mask(texel)),
+            Ground::Metal => (stains.shading.metal(&sample, &pattern), self.mask(texel)),
         }
+    }
+
+    /// Alpha of backs and metal: the least in a texel, as they may not be seen in holes of the paint over them, whose
+    /// texels may be finer.
+    fn mask(&self, texel: Vec2) -> f32 {
+        let Some(finish) = self.patch.mask else { return 1.0 };
+        let alpha = |offset: Vec2| finish.shading(&self.place(nearest(&self.texels, texel + offset).0)).1;
+        let corners = [Vec2::new(-0.5, -0.5), Vec2::new(0.5, -0.5), Vec2::new(-0.5, 0.5), Vec2::new(0.5, 0.5)];
+        corners.into_iter().map(alpha).fold(alpha(Vec2::ZERO), f32::min)
     }
 
     fn sample(&self, weights: Vec3) -> StainSample {

@@ -21,7 +21,9 @@ fn square(uvs: [[f32; 2]; 4], slot: Slot) -> (Prop, FilmState) {
     };
     let built = build_film(&surface, FilmResolution::Triangles(200), 0).expect("a film");
     let film = FilmState::new(&built, &CoatingSettings::default(), 0, 100).expect("a film");
-    (Prop { name: "square".into(), surface, origin: Vec3::ZERO, slots: vec![slot], built, seed: 0 }, film)
+    let prop =
+        Prop { name: "square".into(), surface, origin: Vec3::ZERO, slots: vec![slot], place: None, built, seed: 0 };
+    (prop, film)
 }
 
 const UPRIGHT: [[f32; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
@@ -31,7 +33,7 @@ fn png(width: u32, height: u32, pixels: &[u8]) -> Image {
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.write_header().and_then(|mut writer| writer.write_image_data(pixels)).expect("a PNG");
-    Image { mime_type: "image/png".into(), bytes, ..Image::default() }
+    Image { mime_type: "image/png".into(), bytes: bytes.into(), ..Image::default() }
 }
 
 fn decoded(bytes: &[u8]) -> (u32, Vec<[u8; 3]>) {
@@ -60,7 +62,12 @@ fn library() -> MaterialLibrary {
 }
 
 fn dressed<'a>(prop: &Prop, film: &FilmState, shown: &'a FilmAppearance, output: StainOutput) -> Dressed<'a> {
-    dress(prop, film, shown, &library(), &mut Textures::default(), output)
+    dress(prop, film, (shown, bare(prop, shown)), &library(), &mut Textures::default(), output)
+}
+
+/// Backs and metal, for as long as the test runs.
+fn bare<'a>(prop: &Prop, shown: &'a FilmAppearance) -> &'a Bare<'a> {
+    Box::leak(Box::new(Bare::new(prop, shown, &library())))
 }
 
 fn shown(prop: &Prop, film: &FilmState) -> FilmAppearance {
@@ -181,9 +188,9 @@ fn textures_that_cannot_be_read_stay() {
     let (prop, film) = square(UPRIGHT, slot);
     let shown = shown(&prop, &film);
     let mut library = library();
-    library.images[0].bytes.truncate(40);
+    library.images[0].bytes = library.images[0].bytes[..40].into();
     for output in [StainOutput::Textures(128), StainOutput::VertexColors] {
-        let dressed = dress(&prop, &film, &shown, &library, &mut Textures::default(), output);
+        let dressed = dress(&prop, &film, (&shown, bare(&prop, &shown)), &library, &mut Textures::default(), output);
         assert_eq!(dressed.primitives[0].cover, Cover::Plain);
         assert!(dressed.sheets.is_empty());
         let [warning] = &dressed.warnings[..] else { panic!("one warning") };

@@ -8,8 +8,13 @@ use zune_jpeg::{
 
 use crate::bake::model::Image;
 
-/// Most texels of an image: 16,384 squared, the largest that graphics adapters take.
-const MAX_TEXELS: u64 = 1 << 28;
+/// Most texels of all images of a model together: 16,384 squared, the largest image that graphics adapters take.
+pub const MAX_TEXELS: u64 = 1 << 28;
+/// Most texels of a JPEG image for each of its bytes: a block of 64 takes a bit at least.
+const JPEG_TEXELS_A_BYTE: u64 = 64 * 8;
+/// Most bytes of pixels of a PNG image for each of its bytes, as its compression allows (RFC 1951: 258 bytes of two
+/// codes of a bit each).
+const PNG_BYTES_A_BYTE: u64 = 1032;
 
 /// A decoded image and its smaller copies.
 #[derive(Clone, Debug)]
@@ -38,14 +43,15 @@ pub enum Wrap {
 }
 
 impl Texture {
-    /// Decodes a PNG or JPEG image.
+    /// Decodes a PNG or JPEG image of at most so many texels. How large it is and whether it can be whole is known
+    /// before it is decoded.
     ///
     /// # Errors
     /// A message that says why not.
-    pub fn decode(image: &Image, srgb: bool) -> Result<Self, String> {
+    pub fn decode(image: &Image, srgb: bool, most_texels: u64) -> Result<Self, String> {
         let level = match image.mime_type.as_str() {
-            "image/png" => decode_png(&image.bytes)?,
-            "image/jpeg" => decode_jpeg(&image.bytes)?,
+            "image/png" => decode_png(&image.bytes, most_texels)?,
+            "image/jpeg" => decode_jpeg(&image.bytes, most_texels)?,
             other => return Err(format!("{other} cannot be read")),
         };
         let mut texture = Self { levels: vec![level], srgb };
@@ -58,6 +64,22 @@ impl Texture {
     /// Texels along each side.
     pub fn size(&self) -> UVec2 {
         self.levels.first().map_or(UVec2::ONE, |level| level.size)
+    }
+
+    /// Texels as they are stored, row by row from the top.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        self.levels.first().map_or(&[], |level| &level.texels)
+    }
+
+    /// The mean of all its texels.
+    pub fn mean(&self) -> Vec4 {
+        let texel = self.levels.last().and_then(|level| level.texels.first());
+        texel.map_or(Vec4::ZERO, |&texel| self.linear(texel))
+    }
+
+    /// Number of texels, without smaller copies.
+    pub fn texels(&self) -> u64 {
+        self.levels.first().map_or(0, |level| level.texels.len() as u64)
     }
 
     /// Half as large: each texel the mean of four, as light. `None` for a single texel.
@@ -138,12 +160,14 @@ fn wrapped(i: i32, size: i32, wrap: Wrap) -> i32 {
     }
 }
 
-fn decode_png(bytes: &[u8]) -> Result<Level, String> {
+fn decode_png(bytes: &[u8], most_texels: u64) -> Result<Level, String> {
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8() | png::Transformations::ALPHA);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let (width, height) = reader.info().size();
-    let length = checked(width, height).and_then(|()| reader.output_buffer_size().ok_or_else(too_large))?;
+    let row = reader.info().raw_row_length() as u64;
+    check_size((width, height), most_texels, row.saturating_mul(u64::from(height)) / PNG_BYTES_A_BYTE, bytes)?;
+    let length = reader.output_buffer_size().ok_or("it is too large")?;
     let mut pixels = vec![0; length];
     let frame = reader.next_frame(&mut pixels).map_err(|error| error.to_string())?;
     let texels = match frame.color_type {
@@ -154,7 +178,7 @@ fn decode_png(bytes: &[u8]) -> Result<Level, String> {
     level(width, height, texels)
 }
 
-fn decode_jpeg(bytes: &[u8]) -> Result<Level, String> {
+fn decode_jpeg(bytes: &[u8], most_texels: u64) -> Result<Level, String> {
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)
         .set_max_width(usize::from(u16::MAX))
@@ -162,18 +186,26 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Level, String> {
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(|error| error.to_string())?;
     let (width, height) = decoder.dimensions().ok_or("no size")?;
-    checked(width as u32, height as u32)?;
+    let (width, height) = (width as u32, height as u32);
+    let texels = u64::from(width) * u64::from(height);
+    check_size((width, height), most_texels, texels / JPEG_TEXELS_A_BYTE, bytes)?;
     let pixels = decoder.decode().map_err(|error| error.to_string())?;
     let texels = pixels.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
-    level(width as u32, height as u32, texels)
+    level(width, height, texels)
 }
 
-fn checked(width: u32, height: u32) -> Result<(), String> {
-    if u64::from(width) * u64::from(height) > MAX_TEXELS { Err(too_large()) } else { Ok(()) }
-}
-
-fn too_large() -> String {
-    "it is too large".into()
+/// Refuses images that are too large, or larger than so few bytes can hold: `least` is how many it takes.
+fn check_size((width, height): (u32, u32), most_texels: u64, least: u64, bytes: &[u8]) -> Result<(), String> {
+    let found = bytes.len() as u64;
+    if u64::from(width) * u64::from(height) > most_texels {
+        Err(format!(
+            "it is too large: {width} x {height} texels, and a model's textures may have {MAX_TEXELS} together"
+        ))
+    } else if least > found {
+        Err(format!("it is not whole: {width} x {height} texels need {least} bytes or more, there are {found}"))
+    } else {
+        Ok(())
+    }
 }
 
 fn level(width: u32, height: u32, texels: Vec<[u8; 4]>) -> Result<Level, String> {
@@ -266,8 +298,8 @@ mod tests {
     #[test]
     fn jpeg_images_are_read() {
         let bytes = STANDARD.decode(JPEG).expect("base64");
-        let image = Image { mime_type: "image/jpeg".into(), bytes, ..Image::default() };
-        let texture = Texture::decode(&image, true).expect("an image");
+        let image = Image { mime_type: "image/jpeg".into(), bytes: bytes.into(), ..Image::default() };
+        let texture = Texture::decode(&image, true, MAX_TEXELS).expect("an image");
         assert_eq!(texture.size(), UVec2::new(16, 8));
         let texel = |x: usize| texture.levels[0].texels[4 * 16 + x];
         let near = |a: [u8; 4], b: [u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 6);
@@ -282,7 +314,39 @@ mod tests {
             ("image/ktx2", &[]),
         ] {
             let image = Image { mime_type: mime_type.into(), bytes: bytes.into(), ..Image::default() };
-            assert!(Texture::decode(&image, true).is_err(), "{mime_type}");
+            assert!(Texture::decode(&image, true, MAX_TEXELS).is_err(), "{mime_type}");
         }
+    }
+
+    /// Small files that claim to be 16,384 texels wide and high once took ten seconds.
+    #[test]
+    fn sizes_are_checked_before_images_are_decoded() {
+        let mut jpeg = STANDARD.decode(JPEG).expect("base64");
+        let frame = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).expect("a frame header");
+        jpeg[frame + 5..frame + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
+        let mut png = Vec::new();
+        let mut encoder = png::Encoder::new(&mut png, 16384, 16384);
+        encoder.set_color(png::ColorType::Rgba);
+        let written = encoder.write_header().and_then(|mut writer| writer.write_chunk(png::chunk::IDAT, &[0x78, 1]));
+        written.expect("a header");
+        for (mime_type, bytes) in [("image/jpeg", jpeg), ("image/png", png)] {
+            let image = Image { mime_type: mime_type.into(), bytes: bytes.into(), ..Image::default() };
+            let error = |most| Texture::decode(&image, true, most).expect_err(mime_type);
+            assert!(error(MAX_TEXELS).contains("16384 x 16384 texels need"), "{}", error(MAX_TEXELS));
+            assert!(error(MAX_TEXELS - 1).contains("too large"), "{}", error(MAX_TEXELS - 1));
+        }
+    }
+
+    /// The most that the formats allow: nothing whole is refused.
+    #[test]
+    fn images_of_one_colour_are_whole() {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 4096, 4096);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::One);
+        encoder.set_compression(png::Compression::High);
+        encoder.write_header().and_then(|mut w| w.write_image_data(&vec![0; 4096 * 512])).expect("a PNG");
+        let image = Image { mime_type: "image/png".into(), bytes: bytes.into(), ..Image::default() };
+        assert_eq!(Texture::decode(&image, false, MAX_TEXELS).expect("whole").texels(), 1 << 24);
     }
 }

@@ -2,28 +2,30 @@
 
 use std::{
     ffi::OsString,
-    fs,
+    fs, io,
     path::{Path, PathBuf},
 };
 
 use bevy_coating::{
-    bake::{BakeOptions, Input, MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, Resolution, StainOutput, TEXTURE_SIZES},
+    bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, NamePattern, Resolution, StainOutput},
     deform::SolverQuality,
     settings::CoatingSettings,
     stain::Environment,
 };
-use bevy_math::{DVec3, Vec3};
+use bevy_math::Vec3;
 use clap::{
     CommandFactory, Parser,
     builder::{OsStringValueParser, TypedValueParser},
     error::ErrorKind,
 };
 
-use crate::Failure;
-
-/// Strongest wind, in pulls of gravity, and widest gusts, in metres a metre: as wide as a setting's spread.
-const MAX_WIND: f32 = 100.0;
-const MAX_GUSTS: f32 = 10.0;
+use crate::{
+    Failure,
+    values::{
+        MAX_WIND, parse_age, parse_glb, parse_gravity, parse_gusts, parse_pattern, parse_quality, parse_resolution,
+        parse_set, parse_texture_size, parse_vector,
+    },
+};
 
 /// Ages a painted prop without a window or a graphics adapter
 #[derive(Debug, Parser)]
@@ -31,17 +33,29 @@ const MAX_GUSTS: f32 = 10.0;
     name = "coating-bake",
     version,
     after_help = "\
-Exit code: 0, 1 with one line on bad input, 2 on bad usage. Output files are written whole or not at all.
+Several inputs, or folders of models, go to --out-dir and --stats-dir under their own names; each comes out as it \
+would alone, and one that fails does not keep the others.
+Exit code: 0, 1 with one line for each bad input, 2 on bad usage, 130 if interrupted. Output files are written whole \
+or not at all, and never over a file that is read.
 Meshes that have no triangle mesh, or are all slivers, are left out; skinned and morphed ones are aged in their bind \
 pose. Digest: BLAKE3 over the films in order, fields as documented at FilmState::digest_into."
 )]
 pub struct Args {
-    /// A .glb, .gltf or .obj file, or a test piece: plate:3012, curved:3005, disk:4047
-    #[arg(value_parser = OsStringValueParser::new().try_map(|text: OsString| Input::parse(&text)))]
-    pub input: Input,
+    /// .glb, .gltf and .obj files, folders of them, or test pieces: plate:3012, curved:3005, disk:4047
+    #[arg(
+        required = true, value_name = "INPUT",
+        value_parser = OsStringValueParser::new().try_map(|text: OsString| Input::parse(&text))
+    )]
+    pub inputs: Vec<Input>,
     /// Write the aged model: paint, backs of flakes, bare metal, all with their stains
-    #[arg(long, value_name = "FILE.glb", value_parser = OsStringValueParser::new().try_map(parse_glb))]
+    #[arg(
+        long, value_name = "FILE.glb", conflicts_with = "out_dir",
+        value_parser = OsStringValueParser::new().try_map(parse_glb)
+    )]
     pub out: Option<PathBuf>,
+    /// Write the aged model of each input into this folder, as NAME.glb
+    #[arg(long, value_name = "FOLDER")]
+    pub out_dir: Option<PathBuf>,
     /// Texels along the side of the aged model's textures: base colour, metalness and roughness, normals
     #[arg(
         long, value_name = "N", default_value_t = 1024, allow_hyphen_values = true,
@@ -55,11 +69,17 @@ pub struct Args {
     #[arg(long)]
     no_stains: bool,
     /// Write figures of the run
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", conflicts_with = "stats_dir")]
     pub stats: Option<PathBuf>,
+    /// Write figures of each input's run into this folder, as NAME.json
+    #[arg(long, value_name = "FOLDER")]
+    pub stats_dir: Option<PathBuf>,
     /// Write one row a vertex
     #[arg(long, value_name = "FILE.csv")]
     pub dump: Option<PathBuf>,
+    /// Leave nodes, meshes and materials of this name as they are; * and ? stand for any characters; may be repeated
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true, value_parser = parse_pattern)]
+    exclude: Vec<NamePattern>,
     /// Settings: default, few_cracks, gentle, heavy, or a file that ends in .ron
     #[arg(long, value_name = "NAME|FILE.ron", default_value = "default")]
     preset: String,
@@ -117,21 +137,6 @@ pub struct Args {
 }
 
 impl Args {
-    /// Reads the command line; ends the program with code 2 if it makes no sense.
-    pub fn parse_or_exit() -> Self {
-        let args = Self::parse();
-        let outputs: Vec<&Path> = args.outputs().collect();
-        if (1..outputs.len()).any(|i| outputs[..i].contains(&outputs[i])) {
-            usage_error("two output files have the same name");
-        }
-        args
-    }
-
-    /// The files to be written.
-    pub fn outputs(&self) -> impl Iterator<Item = &Path> {
-        [&self.out, &self.dump, &self.stats].into_iter().flatten().map(PathBuf::as_path)
-    }
-
     /// How stains come into the aged model.
     pub fn stains(&self) -> StainOutput {
         match (self.vertex_colors, self.no_stains) {
@@ -141,14 +146,18 @@ impl Args {
         }
     }
 
+    /// The file of settings, if they are in one.
+    pub fn preset_file(&self) -> Option<&Path> {
+        Some(Path::new(&self.preset)).filter(|file| file.extension().is_some_and(|ending| ending == "ron"))
+    }
+
     /// How to age. Ends the program with code 2 on an unknown preset or setting.
     ///
     /// # Errors
     /// [`Failure`] if the settings are a file that cannot be used.
     pub fn options(&self) -> Result<BakeOptions, Failure> {
-        let mut settings = if Path::new(&self.preset).extension().is_some_and(|ending| ending == "ron") {
-            let text = fs::read_to_string(&self.preset)
-                .map_err(|source| Failure::Preset { file: self.preset.clone(), source })?;
+        let mut settings = if let Some(file) = self.preset_file() {
+            let text = read_text(file).map_err(|source| Failure::Preset { file: self.preset.clone(), source })?;
             CoatingSettings::from_ron(&text, &self.preset)?
         } else {
             CoatingSettings::preset(&self.preset).unwrap_or_else(|error| usage_error(&error.to_string()))
@@ -172,76 +181,21 @@ impl Args {
                 rain: self.rain,
                 sun: self.sun,
             },
+            exclude: self.exclude.clone(),
         })
     }
 }
 
-fn usage_error(message: &str) -> ! {
+/// Reads a text; a pipe, which may take for ever, is refused.
+fn read_text(file: &Path) -> io::Result<String> {
+    let data = fs::metadata(file)?;
+    if !data.is_file() && !data.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file but a pipe or a device"));
+    }
+    fs::read_to_string(file)
+}
+
+/// Ends the program with code 2.
+pub fn usage_error(message: &str) -> ! {
     Args::command().error(ErrorKind::ValueValidation, message).exit()
-}
-
-fn parse_glb(path: OsString) -> Result<PathBuf, &'static str> {
-    let path = PathBuf::from(path);
-    match path.extension() {
-        Some(ending) if ending.eq_ignore_ascii_case("gltf") => Err("what is written is binary glTF: name it .glb"),
-        _ => Ok(path),
-    }
-}
-
-fn parse_set(text: &str) -> Result<(String, String), &'static str> {
-    let (path, value) = text.split_once('=').ok_or("write it as path=value")?;
-    Ok((path.trim().into(), value.trim().into()))
-}
-
-fn parse_quality(text: &str) -> Result<SolverQuality, &'static str> {
-    SolverQuality::named(text).ok_or("not reference, high, default or fast")
-}
-
-fn parse_age(text: &str) -> Result<f64, String> {
-    let age = text.parse::<f64>().ok().filter(|age| (0.0..=MAX_AGE).contains(age));
-    age.ok_or_else(|| format!("not a number from 0 to {MAX_AGE}"))
-}
-
-fn parse_resolution(text: &str) -> Result<Resolution, String> {
-    if text == "keep" {
-        return Ok(Resolution::Keep);
-    }
-    let count = text.parse().ok().filter(|n| (4..=MAX_TRIANGLES).contains(n));
-    count.map(Resolution::Triangles).ok_or_else(|| format!("neither `keep` nor a number from 4 to {MAX_TRIANGLES}"))
-}
-
-fn parse_texture_size(text: &str) -> Result<u32, String> {
-    let size = text.parse().ok().filter(|size| TEXTURE_SIZES.contains(size));
-    size.ok_or_else(|| format!("not a number from {} to {}", TEXTURE_SIZES.start(), TEXTURE_SIZES.end()))
-}
-
-fn parse_gravity(text: &str) -> Result<Vec3, &'static str> {
-    let direction = parse_numbers(text).ok_or("write it as three finite numbers, like 0,-1,0")?;
-    // By the largest part first, so that no square can overflow.
-    let largest = direction.abs().max_element();
-    (direction / largest).try_normalize().map(|g| g.as_vec3()).ok_or("gravity needs a direction")
-}
-
-/// A vector that is at most so long.
-fn parse_vector(text: &str, longest: f64) -> Result<Vec3, String> {
-    let vector = parse_numbers(text).ok_or("write it as three finite numbers, like 0.3,0,-0.2")?;
-    // A little more is rounding: 0.6,-0.8,0 is one long.
-    if vector.length() <= longest * 1.000_001 {
-        Ok(vector.as_vec3())
-    } else {
-        Err(format!("its length is more than {longest}"))
-    }
-}
-
-fn parse_gusts(text: &str) -> Result<f32, String> {
-    let gusts = text.parse::<f32>().ok().filter(|gusts| (0.0..=MAX_GUSTS).contains(gusts));
-    gusts.ok_or_else(|| format!("not a number from 0 to {MAX_GUSTS}"))
-}
-
-/// Three finite numbers between commas.
-fn parse_numbers(text: &str) -> Option<DVec3> {
-    let parts: Vec<f64> = text.split(',').map_while(|part| part.trim().parse().ok()).collect();
-    let &[x, y, z] = parts.as_slice() else { return None };
-    let whole = text.split(',').count() == 3;
-    Some(DVec3::new(x, y, z)).filter(|vector| whole && vector.is_finite())
 }

@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, io::Write, path::Path, sync::OnceLock};
 
-use bevy_coating::bake::{BakeWarning, Progress, Stats};
+use bevy_coating::bake::{BakeWarning, Printable, Progress, Stats};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// A progress bar on the standard error; nothing where that is no terminal.
@@ -33,29 +33,53 @@ impl Progress for Bar {
     }
 }
 
+/// Makes text from files fit for the terminal: names may hold line breaks and the codes that move its cursor.
+pub fn printable(text: &str) -> String {
+    Printable(text).to_string()
+}
+
+/// Prints one line. All that is printed goes through here.
+fn line(mut to: impl Write, text: &str) {
+    let _ = writeln!(to, "{}", printable(text));
+}
+
 /// Prints an error, on one line whatever its cause has to say.
 pub fn error(error: &dyn Display) {
     let text = error.to_string();
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let _ = writeln!(std::io::stderr(), "bake: {line}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line(std::io::stderr(), &format!("bake: {words}"));
 }
 
-/// Prints warnings, one a line.
-pub fn warnings(warnings: &[BakeWarning]) {
+/// Prints warnings, one a line, each after the name of the input if there is one.
+pub fn warnings(origin: Option<&str>, warnings: &[BakeWarning]) {
     for warning in warnings {
-        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        let text = match origin {
+            Some(origin) => format!("warning: {origin}: {warning}"),
+            None => format!("warning: {warning}"),
+        };
+        line(std::io::stderr(), &text);
     }
+}
+
+/// Prints how many of several inputs were baked.
+pub fn batch(inputs: usize, failed: usize) {
+    let done = inputs - failed;
+    let text = match failed {
+        0 => format!("aged {done} models"),
+        _ => format!("aged {done} of {inputs} models, {failed} failed"),
+    };
+    line(std::io::stdout(), &text);
 }
 
 /// Prints what came out.
 pub fn summary<'a>(origin: &str, stats: &Stats, files: impl Iterator<Item = &'a Path>) {
     let mut out = std::io::stdout().lock();
+    let mut print = |text: &str| line(&mut out, text);
     let share = |x: Option<f64>| x.map_or_else(|| "-".into(), |x| format!("{:.1} %", x * 100.0));
     let last = stats.timeline.last().cloned().unwrap_or_default();
     let (film, seconds) = (&stats.film, &stats.seconds);
-    let _ = writeln!(out, "{origin}: {} triangles, film of {}", stats.input.triangles, film.triangles);
-    let _ = writeln!(
-        out,
+    print(&format!("{origin}: {} triangles, film of {}", stats.input.triangles, film.triangles));
+    print(&format!(
         "age {}: {} separated, {} of edges torn, {} stripped, {} fallen, {} pieces",
         last.age,
         share(last.separated),
@@ -63,14 +87,13 @@ pub fn summary<'a>(origin: &str, stats: &Stats, files: impl Iterator<Item = &'a 
         share(last.stripped),
         share(last.fallen),
         last.pieces,
-    );
-    let _ = writeln!(
-        out,
+    ));
+    print(&format!(
         "{:.2} s: build {:.2}, fracture {:.2}, deformation {:.2}, stains {:.2}, meshes and textures {:.2}, other {:.2}",
         seconds.total, seconds.build, seconds.fracture, seconds.deform, seconds.stain, seconds.mesh, seconds.other,
-    );
-    let _ = writeln!(out, "digest {}", stats.digest);
+    ));
+    print(&format!("digest {}", stats.digest));
     for file in files {
-        let _ = writeln!(out, "wrote {}", file.display());
+        print(&format!("wrote {}", file.display()));
     }
 }

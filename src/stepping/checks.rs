@@ -1,4 +1,4 @@
-//! Warns of weather that is out of range.
+//! Warns of weather and clocks that are out of range.
 
 use bevy::{
     ecs::{
@@ -8,7 +8,7 @@ use bevy::{
     log::warn,
 };
 
-use crate::api::weather::CoatingWeather;
+use crate::api::{clock::CoatingClock, weather::CoatingWeather};
 
 /// Logs a warning when values of the weather are out of range, once until other values are.
 pub(crate) fn check_weather(weather: Res<CoatingWeather>, mut told: Local<Vec<&'static str>>) {
@@ -18,6 +18,18 @@ pub(crate) fn check_weather(weather: Res<CoatingWeather>, mut told: Local<Vec<&'
     let (valid, faults) = weather.checked();
     if faults != *told && !faults.is_empty() {
         warn!("`CoatingWeather` is out of range in {}: taken as {valid:?}", faults.join(", "));
+    }
+    *told = faults;
+}
+
+/// Logs a warning when values of the clock are out of range, once until other values are.
+pub(crate) fn check_clock(clock: Res<CoatingClock>, mut told: Local<Vec<&'static str>>) {
+    if !clock.is_changed() {
+        return;
+    }
+    let faults = clock.faults();
+    if faults != *told && !faults.is_empty() {
+        warn!("`CoatingClock` is out of range: {}", faults.join(", "));
     }
     *told = faults;
 }

@@ -1,0 +1,125 @@
+//! Random hours of a game in a minute: thirty props are spawned, cloned, despawned, changed, broken and mended in
+//! random order, and after every frame the state of the app is compared with what the clock and the hierarchy say.
+//!
+//! `COATING_SOAK_SEED=7` runs one seed, `COATING_SOAK_WITHOUT=Clone,Swap` leaves actions out, to find the one that is
+//! to blame.
+
+mod actions;
+mod oracle;
+mod props;
+
+use std::time::Duration;
+
+use bevy::{prelude::*, time::TimeUpdateStrategy};
+use bevy_coating::prelude::*;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use self::{oracle::Oracle, props::Palette};
+use crate::common::*;
+
+/// Seeds that run in one test, each with an app of its own.
+const SEEDS: std::ops::Range<u64> = 1..5;
+/// Times that each app is brought to rest and looked at.
+const EPISODES: u32 = 10;
+/// Frames between two rests.
+const FRAMES: u32 = 150;
+
+#[test]
+fn props_survive_whatever_happens_to_them() {
+    let seeds = match std::env::var("COATING_SOAK_SEED") {
+        Ok(seed) => vec![seed.parse().expect("a number in COATING_SOAK_SEED")],
+        Err(_) => SEEDS.collect(),
+    };
+    for seed in seeds {
+        // Shown when the test fails.
+        println!("seed {seed}: run it alone with COATING_SOAK_SEED={seed}");
+        run(seed);
+    }
+}
+
+/// An app that is looked at from outside, with what is expected of it.
+struct Soak {
+    app: App,
+    rng: ChaCha8Rng,
+    palette: Palette,
+    oracle: Oracle,
+}
+
+fn run(seed: u64) {
+    let mut app = app();
+    let palette = Palette::new(&mut app);
+    let allowed = actions::allowed();
+    for _ in 0..3 {
+        app.update();
+    }
+    let baseline = counts(&app);
+    let mut soak = Soak { app, rng: ChaCha8Rng::seed_from_u64(seed), palette, oracle: Oracle::default() };
+    for _ in 0..EPISODES {
+        for _ in 0..FRAMES {
+            if soak.rng.random_bool(0.4) {
+                let action = allowed[soak.rng.random_range(0..allowed.len())];
+                soak.act(action);
+            }
+            soak.frame();
+        }
+        soak.rest();
+    }
+    soak.despawn_all();
+    // More than the half second over which the pace is averaged.
+    for _ in 0..40 {
+        soak.frame();
+    }
+    assert_eq!(counts(&soak.app), baseline, "entities, meshes and settings that are left when all props are gone");
+    assert_eq!(*soak.app.world().resource::<CoatingStatus>(), CoatingStatus::default());
+}
+
+/// Entities, meshes and settings that there are.
+fn counts(app: &App) -> [usize; 3] {
+    let world = app.world();
+    let [meshes, settings] =
+        [world.resource::<Assets<Mesh>>().len(), world.resource::<Assets<CoatingSettings>>().len()];
+    [world.entities().count_spawned() as usize, meshes, settings]
+}
+
+impl Soak {
+    /// Updates the app by one frame of a random length, and compares the ages with those that the clock gives.
+    fn frame(&mut self) {
+        let frame = Duration::from_millis(self.rng.random_range(5..100));
+        self.app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
+        self.oracle.expect(&mut self.app, frame);
+        self.app.update();
+        // Builds and rays run in the background.
+        std::thread::sleep(Duration::from_micros(500));
+        self.oracle.compare(&mut self.app);
+    }
+
+    /// Mends what is broken, waits until all films are built and all rays cast, and looks at everything.
+    fn rest(&mut self) {
+        self.mend_all();
+        self.wait("films to be built", |status| status.waiting == 0 && status.refused == 0);
+        self.app.world_mut().resource_mut::<CoatingClock>().paused = false;
+        self.wait("rays to be cast", |status| status.casting == 0 && status.waiting == 0);
+        self.oracle.compare_at_rest(&mut self.app);
+        self.oracle.look_at_everything(&mut self.app);
+    }
+
+    fn wait(&mut self, what: &str, done: impl Fn(&CoatingStatus) -> bool) {
+        // A change acts in the frame after it at the latest.
+        self.frame();
+        self.frame();
+        for _ in 0..10_000 {
+            if done(self.app.world().resource::<CoatingStatus>()) {
+                return;
+            }
+            self.frame();
+        }
+        let failed = messages::<FilmFailed>(&mut self.app);
+        panic!("waited in vain for {what}: {:?}, {failed:?}", self.app.world().resource::<CoatingStatus>());
+    }
+}
+
+/// A random one of `choices`.
+fn one<T: Clone>(rng: &mut impl Rng, choices: &[T]) -> Option<T> {
+    (!choices.is_empty()).then(|| choices[rng.random_range(0..choices.len())].clone())
+}

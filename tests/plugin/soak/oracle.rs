@@ -1,0 +1,170 @@
+//! What is expected of the random app: the age of every film, and which films there are.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
+
+use bevy::prelude::*;
+use bevy_coating::{CoatingPart, film::FilmMesh, prelude::*};
+
+use super::props::{self, ClonedAt, Shape};
+use crate::common::*;
+
+/// Expected state of the app.
+#[derive(Default)]
+pub struct Oracle {
+    films: BTreeMap<Entity, Expected>,
+    /// Coatings whose films may be built again, since something happened to them.
+    rebuilding: BTreeSet<Entity>,
+}
+
+/// Expected age of a film.
+#[derive(Clone, Copy, Debug)]
+struct Expected {
+    root: Entity,
+    /// Steps that the clock and requests have given, with the fraction.
+    steps: f64,
+    /// Last valid rate of the coating.
+    rate: f64,
+    /// Whether the film owes steps because it waited for rays.
+    waits: bool,
+    /// Whether time passed for the film in this frame.
+    runs: bool,
+}
+
+impl Oracle {
+    pub fn has_films(&self, root: Entity) -> bool {
+        self.films.values().any(|film| film.root == root)
+    }
+
+    pub fn allow_rebuilding(&mut self, root: Entity) {
+        self.rebuilding.insert(root);
+    }
+
+    pub fn may_be_rebuilt(&self, root: Entity) -> bool {
+        self.rebuilding.contains(&root)
+    }
+
+    /// Adds the steps that every film should take in a frame of this length.
+    pub fn expect(&mut self, app: &mut App, frame: Duration) {
+        let world = app.world();
+        let clock = world.resource::<CoatingClock>();
+        let age = if clock.paused { 0.0 } else { clock.age_per_second * frame.as_secs_f64() };
+        self.films.retain(|&film, _| world.get::<FilmMesh>(film).is_some());
+        for (&film, expected) in &mut self.films {
+            let Some(coating) = world.get::<Coating>(expected.root) else { continue };
+            let film_clock = world.get::<FilmClock>(film).expect("a clock");
+            if (0.0..=1000.0).contains(&coating.rate) {
+                expected.rate = coating.rate;
+            }
+            expected.runs = !coating.paused && age * expected.rate > 0.0;
+            if !coating.paused {
+                expected.steps += age * expected.rate * f64::from(film_clock.steps_per_age);
+                expected.steps += clock.requested_steps as f64;
+            }
+            if let Some(target) = clock.target_age {
+                // Neither does a film take steps beyond the target, nor is it owed any.
+                let last = film_clock.step_at(target).max(film_clock.steps) as f64;
+                expected.steps = expected.steps.min(last);
+            }
+        }
+    }
+
+    /// Compares the steps of all films with those expected, and notes films that came and went.
+    pub fn compare(&mut self, app: &mut App) {
+        let casting = app.world().resource::<CoatingStatus>().casting > 0;
+        let ready: Vec<FilmReady> = messages(app);
+        // A film that was built in this frame counts from now on.
+        for film in &ready {
+            self.films.remove(&film.entity);
+            assert!(self.rebuilding.contains(&film.root), "{film:?}: nothing had happened to it");
+        }
+        self.films.retain(|&film, _| app.world().get::<FilmMesh>(film).is_some());
+        for (film, expected) in &mut self.films {
+            let steps = app.world().get::<FilmClock>(*film).expect("a clock").steps as f64;
+            assert!(steps <= expected.steps + 1.001, "film {film} took {steps} steps: {expected:?}");
+            let behind = steps < expected.steps - 1.001;
+            expected.waits |= behind && casting;
+            assert!(
+                !behind || (expected.waits && (casting || !expected.runs)),
+                "film {film} took {steps}: {expected:?}"
+            );
+            expected.waits &= behind;
+        }
+        self.find_films(app);
+        let parts: Vec<&ChildOf> =
+            app.world_mut().query_filtered::<&ChildOf, With<CoatingPart>>().iter(app.world()).collect();
+        for part in parts {
+            assert!(app.world().get::<FilmMesh>(part.0).is_some(), "a part below {} has no film", part.0);
+        }
+    }
+
+    /// Begins to count the steps of films that are new.
+    fn find_films(&mut self, app: &mut App) {
+        let mut films = app.world_mut().query_filtered::<(Entity, &CoatedBy, &FilmClock), With<FilmMesh>>();
+        for (film, &CoatedBy(root), clock) in films.iter(app.world()) {
+            if self.films.contains_key(&film) {
+                continue;
+            }
+            if let Some(cloned) = app.world().get::<ClonedAt>(root).filter(|_| film == root) {
+                assert!(clock.steps >= cloned.steps, "a clone is as old as its original");
+            }
+            let rate = app.world().get::<Coating>(root).map_or(0.0, |coating| coating.rate);
+            let rate = if (0.0..=1000.0).contains(&rate) { rate } else { 1.0 };
+            let expected = Expected { root, steps: clock.steps as f64, rate, waits: false, runs: false };
+            self.films.insert(film, expected);
+        }
+    }
+
+    /// Checks that no film is behind when nothing is under way. The clock must have been running.
+    pub fn compare_at_rest(&mut self, app: &mut App) {
+        self.compare(app);
+        assert!(self.films.values().all(|film| !film.waits || !film.runs), "{:?}", self.films);
+        self.rebuilding.clear();
+    }
+
+    /// Checks that each prop has the films that it should have, of the triangles of its own meshes, and nothing else.
+    pub fn look_at_everything(&self, app: &mut App) {
+        let mut left: BTreeSet<Entity> = self.films.keys().copied().collect();
+        for root in props::roots(app) {
+            for (film, shapes) in films_of(app.world(), root) {
+                let triangles: usize =
+                    shapes.iter().map(|&shape| app.world().get::<Shape>(shape).expect("a shape").triangles).sum();
+                // Where one mesh of a node is left, the film may be on either.
+                let film = [film, shapes[0]].into_iter().find(|film| left.contains(film));
+                let film = film.unwrap_or_else(|| panic!("no film for {shapes:?} of {root}"));
+                left.remove(&film);
+                let state = film_state(app, film);
+                assert_eq!(state.validate(), Ok(()), "film {film}");
+                assert_eq!(state.mesh.topology.face_count(), triangles, "film {film} of {shapes:?}");
+                for shape in shapes {
+                    let shown = &app.world().get::<Mesh3d>(shape).expect("a mesh").0;
+                    assert_ne!(
+                        *shown,
+                        app.world().get::<Shape>(shape).expect("a shape").mesh,
+                        "{shape} shows its film"
+                    );
+                    assert!(app.world().resource::<Assets<Mesh>>().contains(shown), "the mesh of {shape}");
+                }
+            }
+        }
+        assert_eq!(left, BTreeSet::new(), "films without a prop");
+        let shown: Vec<&Mesh3d> = app.world_mut().query::<&Mesh3d>().iter(app.world()).collect();
+        let handles: BTreeSet<_> = shown.iter().map(|mesh| mesh.id()).collect();
+        let shared = |mesh: &&&Mesh3d| shown.iter().filter(|other| other.0 == mesh.0).count() > 1;
+        assert!(handles.len() == shown.len(), "a mesh is shown twice: {:?}", shown.iter().find(|mesh| shared(mesh)));
+    }
+}
+
+/// The films that the coating on `root` should have, and the meshes of each.
+fn films_of(world: &World, root: Entity) -> Vec<(Entity, Vec<Entity>)> {
+    let mut films: BTreeMap<Entity, Vec<Entity>> = BTreeMap::new();
+    for shape in props::shapes(world, root) {
+        // Primitives of a node are at its origin, and the node has no mesh itself.
+        let is_primitive = world.get::<Transform>(shape) == Some(&Transform::IDENTITY) && shape != root;
+        let node = world.get::<ChildOf>(shape).map(|child_of| child_of.0).filter(|_| is_primitive);
+        films.entry(node.unwrap_or(shape)).or_default().push(shape);
+    }
+    films.into_iter().collect()
+}
