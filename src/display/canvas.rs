@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn only_vertices_that_look_different_are_coloured_again() {
-        let paint = FilmPaint::new(&Coating::default(), Vec3::NEG_Y);
+        let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Colors, edge: 0.01 };
         let mut stains = vec![[0.0, 0.3, 0.0, 0.0]; 40];
         let mut canvas = StainCanvas::new(&part(stains.clone()), writer);
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn where_no_stains_are_drawn_none_ever_change() {
-        let paint = FilmPaint::new(&Coating::default(), Vec3::NEG_Y);
+        let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Nothing, edge: 0.01 };
         let mut canvas = StainCanvas::new(&part(vec![[0.0; 4]; 4]), writer);
         canvas.take_change();

@@ -133,7 +133,7 @@ fn thirty_props_that_age() {
         let mesh = add_mesh(&mut app, plate(39));
         for seed in 0..30 {
             let coating = Coating::new(Preset::Default).with_resolution(FilmResolution::Keep).with_seed(seed);
-            let coating = coating.with_start_age(0.5).with_steps_per_age(100).with_stain_display(display);
+            let coating = coating.with_start_age(0.8).with_stain_display(display);
             app.world_mut().spawn((Mesh3d(mesh.clone()), coating));
         }
         wait_for_films(&mut app, 30);
