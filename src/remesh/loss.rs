@@ -38,8 +38,8 @@ impl Measure {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShapeLoss {
     area: f64,
-    /// Change of the enclosed volume; 0 if the surface is open.
-    volume: f64,
+    /// Change of the enclosed volume, if the surface is closed.
+    volume: Option<f64>,
 }
 
 impl ShapeLoss {
@@ -51,13 +51,13 @@ impl ShapeLoss {
         // The volume of a sheet with two sides is nothing but rounding.
         let is_solid = before.volume.abs() > THINNEST * before.area * before.area.sqrt();
         let is_closed = is_solid && !twins(&clean.triangles).contains(&u32::MAX);
-        let volume = if is_closed { percent(before.volume, after.volume) } else { 0.0 };
+        let volume = is_closed.then(|| percent(before.volume, after.volume));
         Self { area: percent(before.area, after.area), volume }
     }
 
     /// Returns the change over the one from which there is a warning.
     pub fn excess(self) -> f64 {
-        (self.area.abs() / AREA).max(self.volume.abs() / VOLUME)
+        (self.area.abs() / AREA).max(self.volume.unwrap_or_default().abs() / VOLUME)
     }
 
     /// Returns a warning if the change is large. Both errors shrink with the square of the edge, so with the number of
@@ -67,7 +67,7 @@ impl ShapeLoss {
         (excess > 1.0).then(|| BuildWarning::ShapeCoarse {
             target,
             area: self.area as f32,
-            volume: self.volume as f32,
+            volume: self.volume.map(|volume| volume as f32),
             triangles: (excess * f64::from(target)).ceil() as u32,
         })
     }

@@ -53,7 +53,7 @@ pub enum BuildError {
         triangles: usize,
     },
     /// The surface is too small or too large for lengths in metres in single precision.
-    #[error("the mesh is {size} m across, outside of {least} to {most} m; scale it (is its unit right?)")]
+    #[error("the mesh is {size:.2e} m across, outside of {least:e} to {most:e} m; scale it (is its unit right?)")]
     Size {
         /// Longest side of its bounding box.
         size: f64,

@@ -66,16 +66,17 @@ pub enum BuildWarning {
     },
     /// The film is noticeably smaller than the prop, since its triangles cut corners on round places.
     #[error(
-        "the film of {target} triangles is coarse for this shape: its area is {area:.0} % off and the volume inside \
-         {volume:.0} %; ask for {triangles} triangles or more"
+        "the film of {target} triangles is coarse for this shape: its area changed by {area:.1} %{}; ask for \
+         {triangles} triangles or more",
+        volume.map(|volume| format!(" and the volume inside by {volume:.1} %")).unwrap_or_default()
     )]
     ShapeCoarse {
         /// Number of triangles that was asked for.
         target: u32,
         /// Change of the area, in percent.
         area: f32,
-        /// Change of the enclosed volume, in percent; 0 if the surface is open.
-        volume: f32,
+        /// Change of the enclosed volume, in percent, if the surface is closed.
+        volume: Option<f32>,
         /// Number of triangles that would follow the shape closely.
         triangles: u32,
     },

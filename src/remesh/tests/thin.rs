@@ -158,7 +158,7 @@ fn round_bars_stay_round_or_a_warning_says_how_far_they_do_not() {
         let (area, volume) = (area_change(&surface, &film), volume_change(&surface, &film));
         assert!(volume > -0.12 && area > -0.04, "{sides} sides: area {area}, volume {volume} off");
         let warned = film.warnings.iter().find_map(|w| match w {
-            BuildWarning::ShapeCoarse { volume, triangles, .. } => Some((*volume, *triangles)),
+            BuildWarning::ShapeCoarse { volume, triangles, .. } => Some((volume.expect("closed"), *triangles)),
             _ => None,
         });
         assert_eq!(warned.is_some(), volume < -0.08 || area < -0.03, "{warned:?}: area {area}, volume {volume}");
