@@ -66,7 +66,7 @@ fn dressed<'a>(prop: &Prop, film: &FilmState, shown: &'a FilmAppearance, output:
 }
 
 /// Backs and metal, for as long as the test runs.
-fn bare<'a>(prop: &Prop, shown: &'a FilmAppearance) -> &'a Bare<'a> {
+fn bare(prop: &Prop, shown: &FilmAppearance) -> &'static Bare {
     Box::leak(Box::new(Bare::new(prop, shown, &library())))
 }
 
