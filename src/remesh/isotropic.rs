@@ -17,7 +17,7 @@ use super::{
     polish,
     reference::Reference,
     relax::{self, Relaxation},
-    resolution::Target,
+    resolution::{Target, count_of_edge, edge_of_area},
     sites,
     sizing::LEAST_PART,
     split::{self, SplitLimits},
@@ -70,16 +70,6 @@ const MOST_WHILE_SPLITTING: f64 = 4.0;
 const NEEDLE: f32 = 0.1;
 /// Largest share of needles in the film's area that facets may force on it.
 const MOST_NEEDLES: f64 = 0.25;
-
-/// Returns the side of the equilateral triangle with this area.
-pub(super) fn edge_of_area(area: f64) -> f32 {
-    (area * 4.0 / 3.0_f64.sqrt()).sqrt() as f32
-}
-
-/// Returns the number of equilateral triangles with this side that cover the area.
-pub(super) fn count_of_edge(area: f64, edge: f32) -> f64 {
-    area * 4.0 / (3.0_f64.sqrt() * f64::from(edge) * f64::from(edge))
-}
 
 /// Remeshes the surface. Where features or topology do not allow a film as coarse as asked for, it is finer and has a
 /// warning.

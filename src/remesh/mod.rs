@@ -47,8 +47,8 @@ use frame::Frame;
 ///
 /// # Errors
 /// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
-/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a resolution out of range, and [`BuildError::TooLarge`] if
-/// the film would have more than [`MAX_FILM_TRIANGLES`].
+/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a
+/// resolution out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
 /// use bevy_coating::{film::FilmMesh, remesh::{FilmResolution, build_film}, surface::Surface};

@@ -42,3 +42,13 @@ pub(super) enum Target {
     /// Edge length, in the surface's unit.
     Length(f32),
 }
+
+/// Returns the side of the equilateral triangle with this area.
+pub(super) fn edge_of_area(area: f64) -> f32 {
+    (area * 4.0 / 3.0_f64.sqrt()).sqrt() as f32
+}
+
+/// Returns the number of equilateral triangles with this side that cover the area.
+pub(super) fn count_of_edge(area: f64, edge: f32) -> f64 {
+    area * 4.0 / (3.0_f64.sqrt() * f64::from(edge) * f64::from(edge))
+}

@@ -8,7 +8,7 @@ use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
 use super::features::Scale;
-use super::isotropic::{count_of_edge, edge_of_area};
+use super::resolution::{count_of_edge, edge_of_area};
 use super::topology::Topology;
 use crate::film::HalfEdgeId;
 
@@ -140,8 +140,8 @@ fn parts(topology: &Topology, patch_of: &[u32], count: usize) -> Vec<u32> {
     (0..count as u32).map(|patch| root(&mut parents, patch)).collect()
 }
 
-/// Returns the width of the rectangle with the region's area and perimeter, or of the square with its perimeter if there
-/// is no such rectangle.
+/// Returns the width of the rectangle with the region's area and perimeter, or of a wider one if there is no such
+/// rectangle.
 fn width(region: &Region) -> f64 {
     let root = (region.perimeter * region.perimeter - 16.0 * region.area).max(0.0).sqrt();
     if region.perimeter <= 0.0 {

@@ -213,8 +213,8 @@ impl<'a> WorkMesh<'a> {
         std::mem::swap(&mut self.surface_points[v.index()], &mut other.1);
     }
 
-    /// Returns the distance of the middle of the edge `h` from the surface, over the scale of the part. It is 0 for feature edges, whose distance
-    /// from their line is measured instead.
+    /// Returns the distance of the middle of the edge `h` from the surface, over the scale of the part. It is 0 for
+    /// feature edges, whose distance from their line is measured instead.
     pub fn stray(&self, h: HalfEdgeId) -> f32 {
         if self.chain(h).is_some() {
             return 0.0;
@@ -227,8 +227,8 @@ impl<'a> WorkMesh<'a> {
         self.stray_between(self.position(a), self.position(b), start, h.face())
     }
 
-    /// Returns the distance of the middle of an edge from `a` to `b` at the face `f` from the surface, over the scale of
-    /// the part and the closeness of the film.
+    /// Returns the distance of the middle of an edge from `a` to `b` at the face `f` from the surface, over the scale
+    /// of the part and the closeness of the film.
     pub fn stray_between(&self, a: Vec3, b: Vec3, start: FaceId, f: FaceId) -> f32 {
         self.stray_at(a.midpoint(b), start) / (self.scale(f) * self.reference.closeness)
     }

@@ -64,8 +64,8 @@ pub enum BuildError {
     },
     /// The surface lies so far from its origin that rounding would fold the film's triangles.
     #[error(
-        "the mesh lies {distance} m from its origin, where positions are rounded to {rounding} m, too coarse for triangles \
-         of {edge} m; move it nearer to its origin or ask for fewer triangles"
+        "the mesh lies {distance} m from its origin, where positions are rounded to {rounding} m, too coarse for \
+         triangles of {edge} m; move it nearer to its origin or ask for fewer triangles"
     )]
     FarFromOrigin {
         /// Distance of its farthest coordinate.
