@@ -33,7 +33,8 @@ pub const DEFAULT_TRIANGLES: u32 = 4000;
 /// at any time. A change of another field builds the film again; the prop keeps its old film until the new one is
 /// ready. For fresh paint remove the `Coating` and insert it again.
 ///
-/// A coated entity may be [cloned](bevy::ecs::entity::EntityCloner): the clone gets a film of its own in the same state.
+/// A coated entity may be [cloned](bevy::ecs::entity::EntityCloner): the clone gets a film of its own in the same
+/// state.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -64,8 +65,8 @@ pub struct Coating {
     ///
     /// The meshes below one coating differ in any case: each varies the seed by the path of names that leads to it.
     pub seed: Option<u64>,
-    /// Resolution. Default: [`DEFAULT_TRIANGLES`] triangles, which all films of the coating share by area. An edge length
-    /// holds for each film.
+    /// Resolution. Default: [`DEFAULT_TRIANGLES`] triangles, which all films of the coating share by area. An edge
+    /// length holds for each film.
     pub resolution: FilmResolution,
     /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 to 1,000
     /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1. If it is set out of range while the film ages, a warning
@@ -78,8 +79,8 @@ pub struct Coating {
     /// ([`MAX_START_AGE`](super::limits::MAX_START_AGE)), default 0 (fresh).
     pub start_age: f64,
     /// Weather in which the film is aged to its [start age](Self::start_age). `None`, the default: still air, neither
-    /// rain nor sun. Today's [weather](super::weather::CoatingWeather) does not reach back, so a prop that is spawned in
-    /// a storm looks like one that is spawned before it.
+    /// rain nor sun. Today's [weather](super::weather::CoatingWeather) does not reach back, so a prop that is spawned
+    /// in a storm looks like one that is spawned before it.
     pub past_weather: Option<CoatingWeather>,
     /// Number of steps per unit of age. 1 to 100,000 ([`MAX_STEPS_PER_AGE`](super::limits::MAX_STEPS_PER_AGE)), default
     /// 1,000. The result hardly depends on it; more steps cost more.

@@ -34,7 +34,8 @@ pub enum CoatingFault {
     /// Mesh with morph targets in use.
     #[error("its mesh is morphed; bake the shape into a mesh without morph targets")]
     Morphed,
-    /// Material that is alpha-blended, of a mesh that has a `Coating` itself. Below a coating such meshes are left alone.
+    /// Material that is alpha-blended, of a mesh that has a `Coating` itself. Below a coating such meshes are left
+    /// alone.
     #[error("its material is alpha-blended; use `AlphaMode::Opaque` or `AlphaMode::Mask`")]
     AlphaBlended,
     /// Material that light passes through, of a mesh that has a `Coating` itself. Below a coating such meshes are left

@@ -69,8 +69,8 @@ pub(crate) struct FilmSource {
     pub slots: Vec<Entity>,
     /// World scale at which the film was built.
     pub scale: Vec3,
-    /// Point of the scaled mesh that is zero in the film's space: a position of the film is scale * position in the mesh
-    /// - origin.
+    /// Point of the scaled mesh that is zero in the film's space: a position of the film is scale *
+    /// position in the mesh - origin.
     pub origin: Vec3,
     /// Area of the meshes, in square metres.
     pub area: f64,
@@ -106,8 +106,8 @@ pub(crate) struct AwaitingFilm {
     pub root: Entity,
 }
 
-/// Marker of a mesh entity that could not be coated. It is kept until the mesh is coated, so that the same fault is told
-/// once only.
+/// Marker of a mesh entity that could not be coated. It is kept until the mesh is coated, so that the same fault is
+/// told once only.
 #[derive(Component, Clone, Debug)]
 #[component(clone_behavior = Ignore)]
 pub(crate) struct FilmRefused {

@@ -1,5 +1,5 @@
-//! Begins to build films: waits for the assets of a prop's meshes, leaves glass alone, and refuses meshes that cannot be
-//! coated.
+//! Begins to build films: waits for the assets of a prop's meshes, leaves glass alone, and refuses meshes that cannot
+//! be coated.
 
 use bevy::{
     asset::AssetServer,
@@ -109,8 +109,8 @@ fn leave_glass_alone(world: &World, commands: &mut Commands, root: Entity, mut m
     });
     if left > 0 {
         warn!(
-            "coating {root} leaves {left} of its meshes as they are: their materials are alpha-blended or transmissive; \
-             `CoatingExclude` on them says that this is meant, another `AlphaMode` coats them"
+            "coating {root} leaves {left} of its meshes as they are: their materials are alpha-blended or \
+             transmissive; `CoatingExclude` on them says that this is meant, another `AlphaMode` coats them"
         );
     }
     meshes

@@ -65,8 +65,8 @@ pub(crate) struct FilmReadiness {
     pub origin: Vec3,
 }
 
-/// Builds a film, ages it to its start age and writes its display meshes. Whatever takes longer than a [`TURN`] rests in
-/// between, so that one heavy build does not hold up all others, and ends where nobody wants it any more.
+/// Builds a film, ages it to its start age and writes its display meshes. Whatever takes longer than a [`TURN`] rests
+/// in between, so that one heavy build does not hold up all others, and ends where nobody wants it any more.
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.

@@ -105,8 +105,8 @@ pub(super) fn on_slot_removed(removed: On<Remove, FilmSlot>, mut commands: Comma
     }
 }
 
-/// Takes the mesh on `slot` out of the film on `film`. A film without meshes is taken off; a build in which the mesh has
-/// a part begins again without it.
+/// Takes the mesh on `slot` out of the film on `film`. A film without meshes is taken off; a build in which the mesh
+/// has a part begins again without it.
 fn drop_slot(world: &mut World, film: Entity, slot: Entity) {
     let Ok(mut entity) = world.get_entity_mut(film) else { return };
     let is_built = entity.contains::<FilmSource>();

@@ -73,7 +73,8 @@ pub(super) fn find_meshes(
         let Ok((mesh, slot, awaiting, refused, left_alone)) = meshes.get(entity) else { continue };
         let root = coatings.root_of(entity);
         if let Some(slot) = slot {
-            let swapped = mesh.0 != slot.original && slot.display_mesh.as_ref() != Some(&mesh.0);
+            // A film that is ready is also lost when the game puts the prop's own mesh back.
+            let swapped = mesh.0 != *slot.display_mesh.as_ref().unwrap_or(&slot.original);
             let elsewhere = !coatings.is_in_place(entity, slot.film);
             let other_root = films.get(slot.film).map_or(true, |coated_by| root != Some(coated_by.0));
             if swapped || elsewhere || other_root {

@@ -147,8 +147,8 @@ fn refuse_later(
     });
 }
 
-/// Marks meshes as refused. Logs the reason and sends [`FilmFailed`], unless the meshes were refused for the same reason
-/// before.
+/// Marks meshes as refused. Logs the reason and sends [`FilmFailed`], unless the meshes were refused for the same
+/// reason before.
 pub(super) fn refuse(
     commands: &mut Commands,
     film: Entity,

@@ -47,7 +47,8 @@ impl Coatings<'_, '_> {
         found.extend(self.children.iter_descendants(entity));
     }
 
-    /// Returns whether the mesh of `slot` lies where the film on `film` has it: there, or right below in the same place.
+    /// Returns whether the mesh of `slot` lies where the film on `film` has it: there, or right below in the same
+    /// place.
     pub fn is_in_place(&self, slot: Entity, film: Entity) -> bool {
         let below = self.parents.get(slot).is_ok_and(|&ChildOf(parent)| parent == film);
         slot == film || (below && self.transforms.get(slot).is_ok_and(|t| *t == Transform::IDENTITY))

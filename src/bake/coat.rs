@@ -136,8 +136,8 @@ impl Job {
     }
 }
 
-/// Returns the seed of each film: that of the options, varied by the names of the meshes as the plugin varies a coating's
-/// seed. One mesh alone is the prop itself, and has the seed of the options.
+/// Returns the seed of each film: that of the options, varied by the names of the meshes as the plugin varies a
+/// coating's seed. One mesh alone is the prop itself, and has the seed of the options.
 fn film_seeds(seed: u64, meshes: &[ModelMesh]) -> Vec<u64> {
     if let [_] = meshes {
         return vec![seed];

@@ -63,7 +63,8 @@ type Films<'w, 's> = Query<
 /// Signals that films have come or gone.
 #[derive(SystemParam)]
 pub(crate) struct FilmCount<'w, 's> {
-    come: Query<'w, 's, (), Added<FilmShelter>>,
+    // The shelters are borrowed mutably; each comes with its source.
+    come: Query<'w, 's, (), Added<FilmSource>>,
     gone: RemovedComponents<'w, 's, FilmShelter>,
 }
 

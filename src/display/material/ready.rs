@@ -19,8 +19,9 @@ pub(crate) fn material_of(entity: EntityRef) -> Option<AssetId<StandardMaterial>
     own.or(entity.get::<CoatedMaterial>().map(|own| own.0.id()))
 }
 
-/// Returns why one looks through the mesh of `entity`: [`CoatingFault::AlphaBlended`] or [`CoatingFault::Transmissive`].
-/// `Some(None)` for meshes that are opaque or have no standard material, `None` while the material is being loaded.
+/// Returns why one looks through the mesh of `entity`: [`CoatingFault::AlphaBlended`] or
+/// [`CoatingFault::Transmissive`]. `Some(None)` for meshes that are opaque or have no standard material, `None` while
+/// the material is being loaded.
 ///
 /// # Errors
 /// [`CoatingFault::MaterialNotLoaded`] if loading failed.

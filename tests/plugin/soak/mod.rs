@@ -48,6 +48,8 @@ struct Soak {
 
 fn run(seed: u64) {
     let mut app = app();
+    #[cfg(feature = "render")]
+    app.init_asset::<Image>().init_asset::<StandardMaterial>();
     let palette = Palette::new(&mut app);
     let allowed = actions::allowed();
     for _ in 0..3 {
@@ -70,16 +72,22 @@ fn run(seed: u64) {
     for _ in 0..40 {
         soak.frame();
     }
-    assert_eq!(counts(&soak.app), baseline, "entities, meshes and settings that are left when all props are gone");
+    assert_eq!(counts(&soak.app), baseline, "entities and assets that are left when all props are gone");
     assert_eq!(*soak.app.world().resource::<CoatingStatus>(), CoatingStatus::default());
 }
 
-/// Entities, meshes and settings that there are.
-fn counts(app: &App) -> [usize; 3] {
+/// Numbers of entities, meshes, settings and materials.
+fn counts(app: &App) -> Vec<usize> {
     let world = app.world();
-    let [meshes, settings] =
-        [world.resource::<Assets<Mesh>>().len(), world.resource::<Assets<CoatingSettings>>().len()];
-    [world.entities().count_spawned() as usize, meshes, settings]
+    let mut counts = vec![world.entities().count_spawned() as usize];
+    counts.push(world.resource::<Assets<Mesh>>().len());
+    counts.push(world.resource::<Assets<CoatingSettings>>().len());
+    #[cfg(feature = "render")]
+    {
+        counts.push(world.resource::<Assets<StandardMaterial>>().len());
+        counts.push(world.get_resource::<Assets<bevy_coating::StainedMaterial>>().map_or(0, Assets::len));
+    }
+    counts
 }
 
 impl Soak {

@@ -96,7 +96,7 @@ impl Oracle {
         let parts: Vec<&ChildOf> =
             app.world_mut().query_filtered::<&ChildOf, With<CoatingPart>>().iter(app.world()).collect();
         for part in parts {
-            assert!(app.world().get::<FilmMesh>(part.0).is_some(), "a part below {} has no film", part.0);
+            assert!(film_of(app.world(), part.0).is_some(), "a part below {} has no film", part.0);
         }
     }
 
@@ -124,47 +124,44 @@ impl Oracle {
         self.rebuilding.clear();
     }
 
-    /// Checks that each prop has the films that it should have, of the triangles of its own meshes, and nothing else.
+    /// Checks that each mesh of each prop shows a film of its own triangles, and that there are no other films.
     pub fn look_at_everything(&self, app: &mut App) {
-        let mut left: BTreeSet<Entity> = self.films.keys().copied().collect();
-        for root in props::roots(app) {
-            for (film, shapes) in films_of(app.world(), root) {
-                let triangles: usize =
-                    shapes.iter().map(|&shape| app.world().get::<Shape>(shape).expect("a shape").triangles).sum();
-                // Where one mesh of a node is left, the film may be on either.
-                let film = [film, shapes[0]].into_iter().find(|film| left.contains(film));
-                let film = film.unwrap_or_else(|| panic!("no film for {shapes:?} of {root}"));
-                left.remove(&film);
-                let state = film_state(app, film);
-                assert_eq!(state.validate(), Ok(()), "film {film}");
-                assert_eq!(state.mesh.topology.face_count(), triangles, "film {film} of {shapes:?}");
-                for shape in shapes {
-                    let shown = &app.world().get::<Mesh3d>(shape).expect("a mesh").0;
-                    assert_ne!(
-                        *shown,
-                        app.world().get::<Shape>(shape).expect("a shape").mesh,
-                        "{shape} shows its film"
-                    );
-                    assert!(app.world().resource::<Assets<Mesh>>().contains(shown), "the mesh of {shape}");
-                }
+        let roots = props::roots(app);
+        let world = app.world();
+        let mut films: BTreeMap<Entity, usize> = self.films.keys().map(|&film| (film, 0)).collect();
+        let mut displays = BTreeSet::new();
+        for root in roots {
+            for entity in props::shapes(world, root) {
+                let shape = world.get::<Shape>(entity).expect("a shape");
+                let film = film_of(world, entity).unwrap_or_else(|| panic!("{entity} of {root} has no film"));
+                assert_eq!(self.films.get(&film).map(|film| film.root), Some(root), "film {film} of {entity}");
+                *films.entry(film).or_default() += shape.triangles;
+                let shown = &world.get::<Mesh3d>(entity).expect("a mesh").0;
+                assert_ne!(*shown, shape.mesh, "{entity} of {root} shows its own mesh");
+                assert!(displays.insert(shown.id()), "two meshes show the film of {entity}");
+                let mesh = world.resource::<Assets<Mesh>>().get(shown).expect("the mesh of a film");
+                // Flakes curl away from their places, but not as far as the mesh beside is.
+                let positions =
+                    mesh.attribute(Mesh::ATTRIBUTE_POSITION).and_then(|p| p.as_float3()).expect("positions");
+                let is_there = |p: &[f32; 3]| if shape.beside { p[0] > 1.1 } else { p[0] < 1.4 };
+                assert!(positions.iter().all(is_there), "{entity} of {root} shows what is not there");
             }
         }
-        assert_eq!(left, BTreeSet::new(), "films without a prop");
-        let shown: Vec<&Mesh3d> = app.world_mut().query::<&Mesh3d>().iter(app.world()).collect();
-        let handles: BTreeSet<_> = shown.iter().map(|mesh| mesh.id()).collect();
-        let shared = |mesh: &&&Mesh3d| shown.iter().filter(|other| other.0 == mesh.0).count() > 1;
-        assert!(handles.len() == shown.len(), "a mesh is shown twice: {:?}", shown.iter().find(|mesh| shared(mesh)));
+        for (film, triangles) in films {
+            assert!(triangles > 0, "film {film} is of no mesh: a ghost");
+            let state = film_state(app, film);
+            assert_eq!(state.validate(), Ok(()), "film {film}");
+            // The film of a node keeps the faces of meshes that have left, hidden.
+            let faces = state.mesh.topology.face_count();
+            let may_hide = app.world().get::<Shape>(film).is_none();
+            assert!(faces == triangles || (may_hide && faces > triangles), "film {film}: {faces} of {triangles}");
+        }
     }
 }
 
-/// The films that the coating on `root` should have, and the meshes of each.
-fn films_of(world: &World, root: Entity) -> Vec<(Entity, Vec<Entity>)> {
-    let mut films: BTreeMap<Entity, Vec<Entity>> = BTreeMap::new();
-    for shape in props::shapes(world, root) {
-        // Primitives of a node are at its origin, and the node has no mesh itself.
-        let is_primitive = world.get::<Transform>(shape) == Some(&Transform::IDENTITY) && shape != root;
-        let node = world.get::<ChildOf>(shape).map(|child_of| child_of.0).filter(|_| is_primitive);
-        films.entry(node.unwrap_or(shape)).or_default().push(shape);
-    }
-    films.into_iter().collect()
+/// The film that the mesh of `entity` shows: its own, or that of the node above it.
+fn film_of(world: &World, entity: Entity) -> Option<Entity> {
+    world.get::<Shape>(entity)?;
+    let node = world.get::<ChildOf>(entity).map(|child_of| child_of.0);
+    [Some(entity), node].into_iter().flatten().find(|&film| world.get::<FilmMesh>(film).is_some())
 }

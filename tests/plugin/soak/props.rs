@@ -20,6 +20,9 @@ pub struct Palette {
     plates: Vec<[Shape; 2]>,
     /// Settings assets.
     pub settings: Vec<Handle<CoatingSettings>>,
+    /// Paint of all props.
+    #[cfg(feature = "render")]
+    paint: Handle<StandardMaterial>,
 }
 
 /// A prop's own mesh, on its entity.
@@ -58,8 +61,23 @@ impl Palette {
         };
         let plates = SIDES.iter().map(|&n| [shape(n, false), shape(n, true)]).collect();
         let mut assets = app.world_mut().resource_mut::<Assets<CoatingSettings>>();
-        let settings = [Preset::Heavy, Preset::Gentle].map(|preset| assets.add(CoatingSettings::from(preset)));
-        Self { plates, settings: settings.to_vec() }
+        let settings = [Preset::Heavy, Preset::Gentle].map(|preset| assets.add(CoatingSettings::from(preset))).to_vec();
+        #[cfg(feature = "render")]
+        let paint = app.world_mut().resource_mut::<Assets<StandardMaterial>>().add(StandardMaterial::default());
+        Self {
+            plates,
+            settings,
+            #[cfg(feature = "render")]
+            paint,
+        }
+    }
+
+    /// A mesh that is painted.
+    fn painted(&self, shape: Shape) -> impl Bundle {
+        #[cfg(feature = "render")]
+        return (Mesh3d(shape.mesh.clone()), shape, MeshMaterial3d(self.paint.clone()));
+        #[cfg(not(feature = "render"))]
+        (Mesh3d(shape.mesh.clone()), shape)
     }
 
     /// The plate number `i`.
@@ -72,7 +90,7 @@ impl Palette {
 pub fn spawn(app: &mut App, palette: &Palette, kind: usize, side: usize, coating: Coating, place: Vec3) -> Entity {
     let world = app.world_mut();
     let place = Transform::from_translation(place);
-    let mesh = |shape: Shape| (Mesh3d(shape.mesh.clone()), shape);
+    let mesh = |shape: Shape| palette.painted(shape);
     match kind % 3 {
         0 => world.spawn((place, coating, mesh(palette.shape(side, false)))).id(),
         1 => {
