@@ -7,11 +7,10 @@ use std::sync::Arc;
 
 use bevy::{
     ecs::{
-        change_detection::DetectChangesMut,
+        change_detection::{DetectChanges, DetectChangesMut},
         entity::Entity,
         lifecycle::RemovedComponents,
-        query::Added,
-        system::{Local, Query, Res, ResMut, SystemParam},
+        system::{Local, Query, Res, ResMut},
     },
     math::Vec3,
     tasks::AsyncComputeTaskPool,
@@ -60,14 +59,6 @@ type Films<'w, 's> = Query<
     ),
 >;
 
-/// Signals that films have come or gone.
-#[derive(SystemParam)]
-pub(crate) struct FilmCount<'w, 's> {
-    // The shelters are borrowed mutably; each comes with its source.
-    come: Query<'w, 's, (), Added<FilmSource>>,
-    gone: RemovedComponents<'w, 's, FilmShelter>,
-}
-
 /// Begins casts for films whose exposure is out of date.
 pub(crate) fn cast(
     weather: Res<CoatingWeather>,
@@ -75,11 +66,12 @@ pub(crate) fn cast(
     mut scene: ResMut<ShelterScene>,
     mut index: ResMut<ShelteredFilms>,
     mut films: Films,
-    mut count: FilmCount,
+    mut gone: RemovedComponents<FilmShelter>,
     mut waiting: Local<Vec<(u32, Entity)>>,
 ) {
     index.looked_at = 0;
-    index.stale |= count.gone.read().count() > 0 || !count.come.is_empty();
+    let come = films.iter_mut().any(|(_, shelter, ..)| shelter.is_added());
+    index.stale |= come || gone.read().count() > 0;
     let falling: Vec<Vec3> = falls(&weather.environment(*gravity, &GlobalTransform::IDENTITY))
         .into_iter()
         .filter(|&fall| fall != Vec3::ZERO)
