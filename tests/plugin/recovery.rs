@@ -11,11 +11,16 @@ fn status(app: &App) -> &CoatingStatus {
 
 /// Updates until a prop is refused, and returns the cause, which must be told once.
 fn refused(app: &mut App) -> CoatingFault {
-    update_until(app, |app| status(app).refused == 1);
+    // Messages are kept for two frames only.
+    let mut failed = Vec::new();
+    update_until(app, |app| {
+        failed.extend(messages::<FilmFailed>(app));
+        status(app).refused == 1
+    });
     for _ in 0..5 {
+        failed.extend(messages::<FilmFailed>(app));
         app.update();
     }
-    let failed = messages::<FilmFailed>(app);
     assert_eq!(failed.len(), 1, "{failed:?}");
     failed[0].error.cause.clone()
 }
