@@ -299,8 +299,9 @@ impl Coating {
     }
 }
 
-/// Fields of a [`Coating`] that decide how a film is built.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Fields of a [`Coating`] that decide how a film is built. Two keys are equal if their bits are, so that a field that is
+/// NaN does not look changed all the time.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct FilmKey {
     pub seed: Option<u64>,
     pub resolution: FilmResolution,
@@ -308,6 +309,27 @@ pub(crate) struct FilmKey {
     /// Weather of the past; `None` also where there is no past.
     pub past_weather: Option<CoatingWeather>,
     pub steps_per_age: u32,
+}
+
+impl FilmKey {
+    /// Returns everything that keys are compared by.
+    fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32) {
+        let (resolution, length) = match self.resolution {
+            FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
+            other => (other, 0),
+        };
+        let weather = self.past_weather.map(|weather| {
+            let CoatingWeather { wind, gusts, rain, sun } = weather;
+            [wind.x, wind.y, wind.z, gusts, rain.x, rain.y, rain.z, sun.x, sun.y, sun.z].map(f32::to_bits)
+        });
+        (self.seed, resolution, length, self.start_age.to_bits(), weather, self.steps_per_age)
+    }
+}
+
+impl PartialEq for FilmKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.bits() == other.bits()
+    }
 }
 
 /// Source of a coating's settings.

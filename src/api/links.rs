@@ -16,12 +16,8 @@ use bevy::{
 #[cfg(feature = "render")]
 use bevy::pbr::StandardMaterial;
 
-use super::{
-    coating::{FilmKey, SettingsSource},
-    error::CoatingFault,
-    shelter::Shelter,
-    stain_display::StainDisplay,
-};
+use super::{coating::FilmKey, error::CoatingFault, shelter::Shelter, stain_display::StainDisplay};
+use crate::settings::CoatingSettings;
 
 /// Link from the entity of a film to the entity with its [`Coating`](super::coating::Coating).
 ///
@@ -77,7 +73,7 @@ pub(crate) struct FilmSource {
     /// Whether each face belongs to a slot that has left the film; empty while none has.
     pub hidden: Vec<bool>,
     /// Fields of a coating with which no other film could be built, so that it is not tried again and again.
-    pub refused: Option<FilmKey>,
+    pub refused: Option<RefusedKey>,
 }
 
 impl FilmSource {
@@ -91,6 +87,15 @@ impl FilmSource {
     pub fn live_slots(&self) -> impl Iterator<Item = Entity> {
         self.slots.iter().copied().filter(|&slot| slot != Entity::PLACEHOLDER)
     }
+}
+
+/// Fields of a coating with which no other film could be built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RefusedKey {
+    /// Fields that decide how a film is built.
+    pub key: FilmKey,
+    /// Whether all fields of the coating were in range.
+    pub valid: bool,
 }
 
 /// Marker of a film that is to be built again, because its coating changed. The film stays until the new one is ready.
@@ -142,7 +147,9 @@ pub(crate) struct Suspects {
     /// Types of the entity's components other than the plugin's own.
     pub components: Vec<ComponentId>,
     /// Fields of the coating.
-    pub coating: (FilmKey, SettingsSource, StainDisplay, Shelter, bool),
+    pub coating: (FilmKey, StainDisplay, Shelter, bool),
+    /// Settings asset, or the bits of settings that are stored in the coating: values that are NaN are equal, too.
+    pub settings: (Option<AssetId<CoatingSettings>>, Vec<u32>),
     /// World scale of the entity.
     pub scale: [u32; 3],
 }

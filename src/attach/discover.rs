@@ -20,7 +20,9 @@ use super::{
 use crate::api::{
     coating::Coating,
     exclude::CoatingExclude,
-    links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
+    links::{
+        AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey,
+    },
 };
 
 /// Query of the meshes that are not the plugin's own, and where they stand.
@@ -110,6 +112,7 @@ pub(super) fn find_outdated(
     for (film, coated_by, source, build, outdated) in &films {
         let Ok(coating) = changed.get(coated_by.0) else { continue };
         let wanted = coating.key();
+        let asked = RefusedKey { key: wanted, valid: coating.validate().is_ok() };
         let Some(source) = source else {
             // Its meshes await another build, from the beginning.
             if build.is_some_and(|build| build.key != wanted) {
@@ -122,7 +125,7 @@ pub(super) fn find_outdated(
             commands.try_remove::<FilmBuild>();
         }
         let building = build.is_some_and(|build| build.key == wanted);
-        let outdates = source.key != wanted && source.refused != Some(wanted) && !building;
+        let outdates = source.key != wanted && source.refused != Some(asked) && !building;
         if outdates && !outdated {
             commands.try_insert(FilmOutdated);
         } else if outdated && !outdates {

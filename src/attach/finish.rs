@@ -22,7 +22,7 @@ use crate::{
         coating::{Coating, FilmKey},
         error::{CoatingError, CoatingFault},
         film_pace::FilmPace,
-        links::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource, LeftAlone, Suspects},
+        links::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey, Suspects},
         messages::{FilmFailed, FilmReady},
     },
     appearance::DisplayChanges,
@@ -116,10 +116,11 @@ pub(super) fn keep_old(commands: &mut Commands, film: Entity, root: Entity, key:
     let error = CoatingError { entity: film, cause };
     error!("{error}; it keeps the film that it has");
     commands.queue(move |world: &mut World| {
+        let valid = world.get::<Coating>(root).is_some_and(|coating| coating.validate().is_ok());
         let Ok(mut entity) = world.get_entity_mut(film) else { return };
         entity.remove::<(FilmBuild, crate::api::links::FilmOutdated)>();
         if let Some(mut source) = entity.get_mut::<FilmSource>() {
-            source.refused = Some(key);
+            source.refused = Some(RefusedKey { key, valid });
         }
     });
     commands.write_message(FilmFailed { entity: film, root, error });
@@ -177,7 +178,11 @@ fn tell(
     refused: &Query<&FilmRefused>,
     cause: &CoatingFault,
 ) {
-    let known = |&mesh: &Entity| refused.get(mesh).is_ok_and(|r| r.root == root && r.film == film && r.cause == *cause);
+    // As text, since a cause that holds NaN is not equal to itself.
+    let text = cause.to_string();
+    let known = |&mesh: &Entity| {
+        refused.get(mesh).is_ok_and(|r| r.root == root && r.film == film && r.cause.to_string() == text)
+    };
     if meshes.iter().all(known) {
         return;
     }

@@ -1,14 +1,18 @@
 //! Notes what a refusal may lie in, so that it can be seen when that changes.
 
 use bevy::{
+    asset::AssetId,
     ecs::{component::ComponentId, entity::Entity, world::World},
     mesh::Mesh3d,
     transform::components::GlobalTransform,
 };
 
-use crate::api::{
-    coating::Coating,
-    links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, LeftAlone, Suspects},
+use crate::{
+    api::{
+        coating::{Coating, SettingsSource},
+        links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, LeftAlone, Suspects},
+    },
+    settings::CoatingSettings,
 };
 
 /// Returns everything that decides whether the mesh of `entity` can be coated by `root`, as it is now.
@@ -24,9 +28,20 @@ pub(super) fn suspects_of(world: &World, entity: Entity, root: Entity) -> Option
         #[cfg(feature = "render")]
         material: crate::display::material_of(found),
         components: components.collect(),
-        coating: (coating.key(), coating.settings.clone(), coating.stain_display, coating.shelter, valid),
+        coating: (coating.key(), coating.stain_display, coating.shelter, valid),
+        settings: bits_of(&coating.settings),
         scale: scale.to_array().map(f32::to_bits),
     })
+}
+
+/// Returns the settings asset, or the bits of settings that are stored in the coating.
+fn bits_of(source: &SettingsSource) -> (Option<AssetId<CoatingSettings>>, Vec<u32>) {
+    match source {
+        SettingsSource::Inline(settings) => {
+            (None, CoatingSettings::fields().map(|field| field.get(settings).to_bits()).collect())
+        }
+        SettingsSource::Asset(handle) => (Some(handle.id()), Vec::new()),
+    }
 }
 
 /// Returns the components with which the plugin itself marks meshes.

@@ -178,7 +178,8 @@ fn despawning_at_any_time_is_no_error() {
         assert!(films(&mut app).is_empty(), "after {frames} frames");
         assert_eq!(app.world_mut().query::<&CoatingPart>().iter(app.world()).count(), 0);
     }
-    assert_eq!(*app.world().resource::<CoatingStatus>(), CoatingStatus::default());
+    let status = app.world().resource::<CoatingStatus>();
+    assert_eq!((status.waiting, status.refused, status.films), (0, 0, 0));
 }
 
 /// A film that has taken 50 steps, and its coating changed by `change`; nothing has been updated since.
@@ -225,6 +226,7 @@ fn changes_of_seven_fields_are_followed_without_a_new_film() {
     };
     assert_ne!(colors(&shown(&app, plate)), colors(&before), "shading");
     let (mut app, plate) = changed(|c| c.shelter = Shelter::Given);
+    app.update();
     app.insert_resource(CoatingWeather { rain: Vec3::NEG_Z, ..CoatingWeather::default() });
     take_steps(&mut app, 1);
     assert_eq!(film_state(&app, plate).clock.steps, 51, "shelter: no ray is waited for");

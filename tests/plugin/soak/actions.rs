@@ -154,12 +154,15 @@ impl Soak {
     /// Notes that the films of `root` may be built again. No film can be built with a rate out of range.
     fn rebuilt(&mut self, root: Entity) {
         self.oracle.allow_rebuilding(root);
-        self.coating(root, |coating| {
-            if !(0.0..=1000.0).contains(&coating.rate) {
-                coating.rate = 1.0;
-            }
-        });
+        self.set_rate_right(root);
         self.app.world_mut().entity_mut(root).remove::<ClonedAt>();
+    }
+
+    fn set_rate_right(&mut self, root: Entity) {
+        let coating = self.app.world().get::<Coating>(root).expect("a coating");
+        if !(0.0..=1000.0).contains(&coating.rate) {
+            self.coating(root, |coating| coating.rate = 1.0);
+        }
     }
 
     fn settings(&mut self) -> SettingsSource {
@@ -305,6 +308,7 @@ impl Soak {
     pub fn mend_all(&mut self) {
         for root in props::roots(&mut self.app) {
             self.mend(root);
+            self.set_rate_right(root);
         }
     }
 

@@ -122,8 +122,8 @@ impl Soak {
             }
             self.frame();
         }
-        let failed = messages::<FilmFailed>(&mut self.app);
-        panic!("waited in vain for {what}: {:?}, {failed:?}", self.app.world().resource::<CoatingStatus>());
+        let status = self.app.world().resource::<CoatingStatus>();
+        panic!("waited in vain for {what}: {status:?}; refused before were {:#?}", self.oracle.refusals);
     }
 }
 

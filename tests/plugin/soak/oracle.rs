@@ -17,6 +17,8 @@ pub struct Oracle {
     films: BTreeMap<Entity, Expected>,
     /// Coatings whose films may be built again, since something happened to them.
     rebuilding: BTreeSet<Entity>,
+    /// Last reason for which something could not be coated, by root.
+    pub refusals: BTreeMap<Entity, String>,
 }
 
 /// Expected age of a film.
@@ -75,6 +77,9 @@ impl Oracle {
     pub fn compare(&mut self, app: &mut App) {
         let casting = app.world().resource::<CoatingStatus>().casting > 0;
         let ready: Vec<FilmReady> = messages(app);
+        for failed in messages::<FilmFailed>(app) {
+            self.refusals.insert(failed.root, failed.error.to_string());
+        }
         // A film that was built in this frame counts from now on.
         for film in &ready {
             self.films.remove(&film.entity);
