@@ -65,6 +65,7 @@ impl Backs {
         for ((part, behind), front) in parts.iter_mut().zip(behind).zip(fronts) {
             part.positions.resize(behind.len(), [0.0; 3]);
             part.normals.resize(behind.len(), [0.0; 3]);
+            gather(&mut part.corners, &front.corners, behind);
             gather(&mut part.uvs, &front.uvs, behind);
             gather(&mut part.uvs_1, &front.uvs_1, behind);
             gather(&mut part.colors, &front.colors, behind);

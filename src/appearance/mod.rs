@@ -199,6 +199,8 @@ impl FilmAppearance {
             copy(&mut part.uvs_1, &self.attributes.uvs_1, corners);
             copy(&mut part.colors, &self.attributes.colors, corners);
             let rest = |&h| mesh.geometry.rest_positions[mesh.topology.origin(h).index()].to_array();
+            part.corners.clear();
+            part.corners.extend_from_slice(corners);
             part.rest.clear();
             part.rest.extend(corners.iter().map(rest));
             copy(&mut part.rest_normals, &self.attributes.normals, corners);

@@ -1,7 +1,10 @@
 //! Follows the stains of one part, and colours those vertices whose look has changed.
 
 use super::film_paint::FilmPaint;
-use crate::appearance::{MeshPart, shading::StainPart};
+use crate::{
+    appearance::{MeshPart, shading::StainPart},
+    film::HalfEdgeId,
+};
 
 /// Difference of a stain below which it looks the same: about one level of 255 in colour.
 const SAME_LOOK: f32 = 1.0 / 256.0;
@@ -31,6 +34,17 @@ pub(super) struct StainWriter<'a> {
     pub edge: f32,
 }
 
+/// Change of a part besides that of its stains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Renewal {
+    /// No change.
+    Nothing,
+    /// Vertices are numbered afresh.
+    Vertices,
+    /// All that was drawn is void: it is a new part, or the paint has changed.
+    Everything,
+}
+
 /// Stains of one part as its mesh shows them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct StainCanvas {
@@ -40,6 +54,8 @@ pub(super) struct StainCanvas {
     shown: Vec<[f32; 4]>,
     /// Colour of each vertex, where colours carry the stains.
     colors: Vec<[f32; 4]>,
+    /// Corner of the film that each coloured vertex stands for.
+    corners: Vec<HalfEdgeId>,
     /// Whether the mesh does not show this yet.
     changed: bool,
 }
@@ -48,37 +64,39 @@ impl StainCanvas {
     /// Returns the canvas of a part as it is now.
     pub fn new(part: &MeshPart, writer: StainWriter) -> Self {
         let mut canvas = Self::default();
-        canvas.follow(part, writer, true);
+        canvas.follow(part, writer, Renewal::Everything);
         canvas
     }
 
-    /// Takes over the stains of `part` that look different from those that are shown; all of them if they are to be
-    /// drawn `afresh`, because vertices are numbered otherwise or the paint has changed.
-    pub fn follow(&mut self, part: &MeshPart, writer: StainWriter, afresh: bool) {
-        let afresh = afresh || self.carrier != writer.carrier;
+    /// Takes over the stains of `part` that look different from those that are shown. Vertices that were numbered
+    /// afresh keep their colours.
+    pub fn follow(&mut self, part: &MeshPart, writer: StainWriter, renewal: Renewal) {
+        let renewal = if self.carrier == writer.carrier { renewal } else { Renewal::Everything };
         self.carrier = writer.carrier;
-        self.changed |= afresh;
+        self.changed |= renewal != Renewal::Nothing;
         if self.carrier == StainCarrier::Nothing {
-            (self.shown, self.colors) = (Vec::new(), Vec::new());
+            (self.shown, self.colors, self.corners) = (Vec::new(), Vec::new(), Vec::new());
             return;
         }
-        let afresh = afresh || self.shown.len() != part.stains.len();
         if self.carrier == StainCarrier::Attributes {
-            self.colors = Vec::new();
-            if afresh || self.shown.iter().zip(&part.stains).any(|(shown, now)| look_different(shown, now)) {
+            (self.colors, self.corners) = (Vec::new(), Vec::new());
+            if renewal != Renewal::Nothing
+                || self.shown.len() != part.stains.len()
+                || self.shown.iter().zip(&part.stains).any(|(shown, now)| look_different(shown, now))
+            {
                 self.shown.clone_from(&part.stains);
                 self.changed = true;
             }
             return;
         }
-        if afresh {
-            self.shown.clear();
-            self.shown.resize(part.stains.len(), [f32::NAN; 4]);
-            self.colors.clear();
-            self.colors.resize(part.stains.len(), [1.0; 4]);
+        if renewal == Renewal::Everything {
+            self.corners.clear();
+        }
+        if renewal != Renewal::Nothing || self.shown.len() != part.stains.len() {
+            self.renumber(part);
         }
         for (i, ((shown, color), now)) in self.shown.iter_mut().zip(&mut self.colors).zip(&part.stains).enumerate() {
-            if !afresh && !look_different(shown, now) {
+            if !look_different(shown, now) {
                 continue;
             }
             let own = part.colors.get(i).copied().unwrap_or([1.0; 4]);
@@ -88,6 +106,20 @@ impl StainCanvas {
             *shown = *now;
             self.changed = true;
         }
+    }
+
+    /// Takes over the vertices of `part`. Those that were there before keep their colours.
+    fn renumber(&mut self, part: &MeshPart) {
+        let corners = self.corners.iter().map(|h| h.index());
+        let mut places = vec![u32::MAX; corners.clone().max().map_or(0, |highest| highest + 1)];
+        corners.enumerate().for_each(|(i, h)| places[h] = i as u32);
+        let old = |i: usize| {
+            let place = *places.get(part.corners.get(i)?.index())? as usize;
+            Some((*self.shown.get(place)?, *self.colors.get(place)?))
+        };
+        let new = |i| old(i).unwrap_or(([f32::NAN; 4], [1.0; 4]));
+        (self.shown, self.colors) = (0..part.stains.len()).map(new).unzip();
+        self.corners.clone_from(&part.corners);
     }
 
     /// Returns the attributes that carry the stains.
@@ -113,7 +145,8 @@ impl StainCanvas {
 
 /// Returns whether the stains of a vertex look different. Stains that are gone count as different from all others.
 fn look_different(shown: &[f32; 4], now: &[f32; 4]) -> bool {
-    let differ = |(a, b): (&f32, &f32)| (a - b).abs() > SAME_LOOK || (*b == 0.0 && *a != 0.0);
+    // What is not a number has not been shown yet.
+    let differ = |(a, b): (&f32, &f32)| !((a - b).abs() <= SAME_LOOK) || (*b == 0.0 && *a != 0.0);
     shown.iter().zip(now).any(differ)
 }
 
@@ -139,17 +172,37 @@ mod tests {
         assert!(canvas.take_change());
         let before = canvas.colors().to_vec();
         stains.iter_mut().for_each(|s| s[1] += 0.003);
-        canvas.follow(&part(stains.clone()), writer, false);
+        canvas.follow(&part(stains.clone()), writer, Renewal::Nothing);
         assert!(!canvas.take_change(), "nothing to see");
         stains.iter_mut().take(10).for_each(|s| s[1] += 0.003);
-        canvas.follow(&part(stains.clone()), writer, false);
+        canvas.follow(&part(stains.clone()), writer, Renewal::Nothing);
         assert!(canvas.take_change(), "small changes add up");
         let changed = before.iter().zip(canvas.colors()).filter(|(a, b)| a != b).count();
         assert_eq!(changed, 10);
         assert_eq!(canvas.colors()[..10], StainCanvas::new(&part(stains.clone()), writer).colors()[..10]);
         stains.iter_mut().for_each(|s| *s = [0.0; 4]);
-        canvas.follow(&part(stains), writer, false);
+        canvas.follow(&part(stains), writer, Renewal::Nothing);
         assert_eq!(canvas.colors(), vec![[1.0; 4]; 40], "clean again");
+    }
+
+    #[test]
+    fn vertices_keep_their_colours_when_they_are_numbered_afresh() {
+        let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
+        let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Colors, edge: 0.01 };
+        let corners = |order: &[u32]| order.iter().map(|&h| HalfEdgeId(h)).collect();
+        let stains = vec![[0.0, 0.3, 0.0, 0.0]; 3];
+        let before = MeshPart { corners: corners(&[4, 9, 2]), ..part(stains.clone()) };
+        let mut canvas = StainCanvas::new(&before, writer);
+        let [a, b, c] = canvas.colors().try_into().expect("three");
+        // The second has gone, another one has come.
+        let after = MeshPart { corners: corners(&[2, 4, 30]), ..part(stains.clone()) };
+        canvas.follow(&after, writer, Renewal::Vertices);
+        assert!(canvas.take_change());
+        assert_eq!(canvas.colors()[..2], [c, a]);
+        assert_ne!(canvas.colors()[2], b, "it lies elsewhere");
+        assert_eq!(canvas.stains(), stains);
+        canvas.follow(&after, writer, Renewal::Everything);
+        assert_eq!(canvas.colors(), StainCanvas::new(&after, writer).colors());
     }
 
     #[test]
@@ -158,7 +211,7 @@ mod tests {
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Nothing, edge: 0.01 };
         let mut canvas = StainCanvas::new(&part(vec![[0.0; 4]; 4]), writer);
         canvas.take_change();
-        canvas.follow(&part(vec![[1.0; 4]; 4]), writer, false);
+        canvas.follow(&part(vec![[1.0; 4]; 4]), writer, Renewal::Nothing);
         assert!(!canvas.take_change());
     }
 }

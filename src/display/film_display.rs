@@ -13,7 +13,7 @@ use bevy::{
 };
 
 use super::{
-    canvas::{StainCanvas, StainCarrier, StainWriter},
+    canvas::{Renewal, StainCanvas, StainCarrier, StainWriter},
     film_paint::FilmPaint,
     mesh::{PartSpace, move_part, new_mesh, write_part, write_stains},
 };
@@ -191,11 +191,15 @@ impl FilmDisplay {
     fn follow_stains(&mut self) {
         let Self { appearance, slots, paint, edge, changes, .. } = self;
         let repainted = std::mem::take(&mut self.repainted);
-        let afresh = changes.topology || repainted;
-        if afresh || changes.stains {
+        let renewal = match (repainted, changes.topology) {
+            (true, _) => Renewal::Everything,
+            (false, true) => Renewal::Vertices,
+            (false, false) => Renewal::Nothing,
+        };
+        if renewal != Renewal::Nothing || changes.stains {
             for (slot, display) in slots.iter_mut().enumerate() {
                 let Some(part) = appearance.front(slot) else { continue };
-                display.canvas.follow(part, front_writer(paint, *edge), afresh);
+                display.canvas.follow(part, front_writer(paint, *edge), renewal);
             }
         }
         #[cfg(feature = "render")]

@@ -3,7 +3,7 @@
 use bevy::{asset::Handle, ecs::entity::Entity, mesh::Mesh, pbr::StandardMaterial};
 
 use super::{
-    canvas::{StainCanvas, StainWriter},
+    canvas::{Renewal, StainCanvas, StainWriter},
     film_paint::FilmPaint,
     material::extension::StainedMaterial,
     outline::Outline,
@@ -66,12 +66,16 @@ impl PartHandles {
             let backs = (StainPart::Back, &mut parts.backs, appearance.backs(slot), changes.topology);
             let metal = (StainPart::Metal, &mut parts.metal, appearance.metal(slot), false);
             for (kind, part, arrays, renumbered) in [backs, metal] {
-                let afresh = renumbered || changes.exposure || repainted;
+                let renewal = match (repainted, renumbered || changes.exposure) {
+                    (true, _) => Renewal::Everything,
+                    (false, true) => Renewal::Vertices,
+                    (false, false) => Renewal::Nothing,
+                };
                 if let (Some(part), Some(arrays)) = (part, arrays)
-                    && (afresh || changes.stains)
+                    && (renewal != Renewal::Nothing || changes.stains)
                 {
                     let carrier = part.canvas.carrier();
-                    part.canvas.follow(arrays, StainWriter { part: kind, paint, carrier, edge }, afresh);
+                    part.canvas.follow(arrays, StainWriter { part: kind, paint, carrier, edge }, renewal);
                 }
             }
         }

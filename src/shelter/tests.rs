@@ -100,5 +100,5 @@ fn what_a_movement_costs_does_not_grow_with_what_is_far_away() {
     let [few, many] = [10, 32].map(lookups_of_a_movement);
     println!("look-ups when one of 100 shelters moves: {few}, of 1,024: {many}");
     assert!(many < 250, "{many} look-ups, not a million");
-    assert!(many < 2 * few, "{few} for 100 films, {many} for 1,024");
+    assert!(many < 3 * few, "{few} for 100 films, {many} for 1,024");
 }
