@@ -59,10 +59,11 @@ fn stains_in_an_app_are_those_of_the_simulation_to_the_bit() {
 fn the_start_age_is_reached_under_the_same_sky() {
     let coating = wet_coating();
     let mut app = app();
-    app.insert_resource(CoatingWeather { rain: Vec3::new(0.0, -0.8, -0.6), ..RAIN });
+    let rain = CoatingWeather { rain: Vec3::new(0.0, -0.8, -0.6), ..RAIN };
+    app.insert_resource(rain);
     spawn_roof(&mut app);
     let stood = spawn_lying(&mut app, 14, coating.clone());
-    let appeared = spawn_lying(&mut app, 14, coating.clone().with_start_age(0.5));
+    let appeared = spawn_lying(&mut app, 14, coating.clone().with_start_age(0.5).with_past_weather(rain));
     wait_for_films(&mut app, 2);
     let fresh = exposure(&app, stood).clone();
     assert!(fresh.rain.contains(&0.0) && fresh.rain.contains(&1.0), "cast before the film appears");
