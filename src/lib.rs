@@ -167,6 +167,8 @@ pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "plugin")]
 pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
+#[cfg(feature = "plugin")]
+pub use stepping::FilmEdit;
 
 /// Compiles the snippets of the README.
 #[cfg(all(doctest, feature = "plugin"))]

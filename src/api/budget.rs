@@ -17,9 +17,8 @@ use bevy::{
 /// Showing films that changed takes its time from the same budget, half of it at most. Films that do not fit are shown
 /// in a later frame, in the same order of preference; what they missed is shown together. Ageing does not wait for it.
 ///
-/// Where that is not enough, because a film would need more than [`max_steps`](Self::max_steps), because time runs out,
-/// or because postponed films are several frames' worth of steps behind, the frame is worth less age for all films
-/// alike: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
+/// A frame is worth less age for all films alike when a film would need more than [`max_steps`](Self::max_steps), when
+/// time runs out, or when postponed films are several frames' worth of steps behind: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
 /// [rate](super::coating::Coating::rate) beside the others. [`CoatingStatus`](super::status::CoatingStatus) tells the
 /// pace that is reached. At least one step is taken in a frame in which any is due. Steps that were
 /// [requested](super::clock::CoatingClock::request_steps) are never dropped.

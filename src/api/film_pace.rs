@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use bevy::{ecs::component::Component, math::Vec3};
+use bevy::{ecs::component::Component, math::Vec3, transform::components::GlobalTransform};
 
 use super::{coating::Coating, error::CoatingFault, step_account::StepAccount};
 use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
+
+/// Smallest share of the view that a film counts with, so that none waits more than 16 times longer than another.
+const LEAST_SHARE: f32 = 1.0 / 16.0;
 
 /// Stepping state of one film, on its entity: the settings and the environment of its steps, and the steps that it is
 /// owed.
@@ -74,6 +77,17 @@ impl FilmPace {
         (self.paused, self.quality) = (coating.paused, coating.quality);
         self.rate = coating.checked_rate()?;
         Ok(())
+    }
+
+    /// Returns the size of the film at `transform` in the view of the nearest of the cameras at `eyes`: its radius over
+    /// its distance, from [`LEAST_SHARE`] to 1. Without cameras it is 1.
+    pub(crate) fn share_of_view(&self, transform: &GlobalTransform, eyes: &[Vec3]) -> f32 {
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        let middle = translation + rotation * self.bounds.0;
+        let nearest = eyes.iter().map(|eye| eye.distance(middle)).reduce(f32::min);
+        let share = nearest.map_or(1.0, |distance| self.bounds.1 / distance);
+        // A film without extent at a camera gives NaN, which counts as the least.
+        if share > LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
     }
 
     /// Returns whether the film takes the step that is under way. Systems in

@@ -50,7 +50,8 @@ pub struct FilmReady {
     pub warnings: Vec<BuildWarning>,
 }
 
-/// Message that a mesh could not be coated. The prop keeps its own mesh and material.
+/// Message that a mesh could not be coated. The prop keeps its own mesh and material; where a changed coating asked for
+/// another film, it keeps the film that it has.
 ///
 /// ```
 /// use bevy::prelude::*;

@@ -5,7 +5,7 @@ use bevy::{asset::Handle, image::Image, math::Affine2, mesh::UvChannel, reflect:
 /// Sides and holes of a prop whose material is not a `StandardMaterial`, for the backs of its flakes and its bare
 /// metal.
 ///
-/// Of a `StandardMaterial` the plugin reads both itself, and this setting does not count. It cannot look into other
+/// The plugin reads both from a `StandardMaterial` itself, and ignores this setting then. It cannot look into other
 /// materials. The default is what Bevy draws by default: front sides only, without holes.
 ///
 /// ```

@@ -162,8 +162,7 @@ fn begin_films(
             Ok(inputs) => found.push((candidate, inputs)),
             Err(fault) if candidate.renews => keep_old(commands, candidate.film, root, coating.key(), fault),
             Err(fault) => {
-                let seen = candidate.slots.iter().map(|&slot| (slot, suspects_of(world, slot, root))).collect();
-                refuse(commands, candidate.film, root, seen, refused, fault);
+                refuse(commands, candidate.film, root, candidate.slots, refused, fault);
             }
         }
     }

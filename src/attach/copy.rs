@@ -35,6 +35,8 @@ use crate::{
 struct Copied {
     /// Film of the original.
     of: Entity,
+    /// Entity with the clone's coating.
+    root: Entity,
     /// Entity on which the clone's film will be.
     film: Entity,
     /// Slot of the film.
@@ -115,7 +117,7 @@ fn place_of(
     let shared = original != slot.film;
     let above = parent
         .filter(|&parent| shared && world.get::<FilmSource>(parent).is_none() && coatings.is_in_place(mesh, parent));
-    Some(Copied { of: slot.film, film: above.unwrap_or(mesh), number, mesh })
+    Some(Copied { of: slot.film, root, film: above.unwrap_or(mesh), number, mesh })
 }
 
 /// Gives a clone the mesh and the material of the prop itself and unlinks it from the original's film.
@@ -134,13 +136,7 @@ fn restore_clone(world: &mut World, mesh: Entity) {
 
 /// Puts a copy of a film on the clones in `group`, which are of one film and will share one.
 fn copy_film(world: &mut World, group: &[Copied]) {
-    let Some(&Copied { of, film, .. }) = group.first() else { return };
-    let root = {
-        let mut state = SystemState::<Coatings>::new(world);
-        let Ok(coatings) = state.get(world) else { return };
-        let Some(root) = group.first().and_then(|copied| coatings.root_of(copied.mesh)) else { return };
-        root
-    };
+    let Some(&Copied { of, root, film, .. }) = group.first() else { return };
     let Ok(original) = world.get_entity(of) else { return };
     let parts = original.get_components::<(
         &FilmMesh,

@@ -22,7 +22,7 @@ use crate::{
         coating::{Coating, FilmKey},
         error::{CoatingError, CoatingFault},
         film_pace::FilmPace,
-        links::{AwaitingFilm, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey, Suspects},
+        links::{AwaitingFilm, CoatedBy, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey},
         messages::{FilmFailed, FilmReady},
     },
     appearance::DisplayChanges,
@@ -60,7 +60,7 @@ pub(super) fn finish_builds(
             Err(fault) => {
                 let (root, meshes) = (build.root, std::mem::take(&mut build.slots));
                 take_film(&mut commands, film);
-                refuse_later(&mut commands, film, root, meshes, &refused, fault);
+                refuse(&mut commands, film, root, meshes, &refused, fault);
             }
             Ok(ready) => {
                 if old.is_some() {
@@ -106,7 +106,7 @@ fn put_on(
         .try_remove::<FilmBuild>()
         .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
         .try_insert((pace, shelter, DisplayChanges::default(), source, display))
-        .try_insert(crate::api::links::CoatedBy(root));
+        .try_insert(CoatedBy(root));
     commands.write_message(FilmReady { entity: film, root, triangles, warnings });
 }
 
@@ -118,7 +118,7 @@ pub(super) fn keep_old(commands: &mut Commands, film: Entity, root: Entity, key:
     commands.queue(move |world: &mut World| {
         let valid = world.get::<Coating>(root).is_some_and(|coating| coating.validate().is_ok());
         let Ok(mut entity) = world.get_entity_mut(film) else { return };
-        entity.remove::<(FilmBuild, crate::api::links::FilmOutdated)>();
+        entity.remove::<(FilmBuild, FilmOutdated)>();
         if let Some(mut source) = entity.get_mut::<FilmSource>() {
             source.refused = Some(RefusedKey { key, valid });
         }
@@ -126,8 +126,9 @@ pub(super) fn keep_old(commands: &mut Commands, film: Entity, root: Entity, key:
     commands.write_message(FilmFailed { entity: film, root, error });
 }
 
-/// Refuses meshes as [`refuse`] does, once the commands before have been carried out.
-fn refuse_later(
+/// Marks meshes as refused. Logs the reason and sends [`FilmFailed`], unless the meshes were refused for the same
+/// reason before.
+pub(super) fn refuse(
     commands: &mut Commands,
     film: Entity,
     root: Entity,
@@ -146,27 +147,6 @@ fn refuse_later(
             }
         }
     });
-}
-
-/// Marks meshes as refused. Logs the reason and sends [`FilmFailed`], unless the meshes were refused for the same
-/// reason before.
-pub(super) fn refuse(
-    commands: &mut Commands,
-    film: Entity,
-    root: Entity,
-    meshes: Vec<(Entity, Option<Suspects>)>,
-    refused: &Query<&FilmRefused>,
-    cause: CoatingFault,
-) {
-    let entities: Vec<Entity> = meshes.iter().map(|&(mesh, _)| mesh).collect();
-    tell(commands, film, root, &entities, refused, &cause);
-    for (mesh, seen) in meshes {
-        let mut entity = commands.entity(mesh);
-        entity.try_remove::<(AwaitingFilm, FilmSlot, LeftAlone)>();
-        if let Some(seen) = seen {
-            entity.try_insert(FilmRefused { root, film, cause: cause.clone(), seen });
-        }
-    }
 }
 
 /// Logs why meshes are refused and sends [`FilmFailed`], unless that was told before.

@@ -8,7 +8,7 @@ use std::{
 /// Reads a whole file. Pipes and devices are refused: to read them may take for ever.
 ///
 /// # Errors
-/// That of the operating system, or that the path names no regular file.
+/// The error of the operating system, or one that says that the path names no regular file.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let data = fs::metadata(path)?;
     if data.is_dir() {

@@ -110,7 +110,7 @@ impl StagedFiles {
     /// pipe, such as `/dev/stdout`, wait in memory.
     ///
     /// # Errors
-    /// Those of [`claim`](Self::claim), and [`BakeError::Write`] if the temporary file cannot be written.
+    /// The errors of [`claim`](Self::claim), and [`BakeError::Write`] if the temporary file cannot be written.
     pub fn add(&mut self, path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), BakeError> {
         let path = path.as_ref();
         let Place::File(file) = place_of(path)? else {

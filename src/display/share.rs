@@ -21,9 +21,6 @@ use crate::{
     appearance::DisplayChanges,
 };
 
-/// Smallest credit that a film gains in a frame; a film that fills the view gains 1.
-const LEAST_SHARE: f32 = 1.0 / 16.0;
-
 /// Film that has something to show.
 pub(super) struct Candidate {
     entity: Entity,
@@ -69,7 +66,7 @@ pub(super) fn choose_films(
     for candidate in candidates.iter_mut() {
         let Ok((_, _, mut display, pace, transform)) = films.get_mut(candidate.entity) else { continue };
         let display = display.bypass_change_detection();
-        display.credit += share_of_view(pace, transform, &eyes);
+        display.credit += pace.share_of_view(transform, &eyes);
         candidate.credit = display.credit;
     }
     // Ties are decided by entity, so that the order is always the same.
@@ -85,15 +82,4 @@ pub(super) fn choose_films(
         }
     }
     cost.count(shown);
-}
-
-/// Returns the size of a film in the view of the nearest camera: its radius over its distance, from [`LEAST_SHARE`] to
-/// 1. Without cameras it is 1 for every film.
-fn share_of_view(pace: &FilmPace, transform: &GlobalTransform, eyes: &[Vec3]) -> f32 {
-    let (_, rotation, translation) = transform.to_scale_rotation_translation();
-    let middle = translation + rotation * pace.bounds.0;
-    let nearest = eyes.iter().map(|eye| eye.distance(middle)).reduce(f32::min);
-    let share = nearest.map_or(1.0, |distance| pace.bounds.1 / distance);
-    // A film without extent at a camera gives NaN, which counts as the least.
-    if share > LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
 }

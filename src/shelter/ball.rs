@@ -45,7 +45,7 @@ impl Ball {
     /// Returns whether something in this ball may hold off rays towards `up`, a unit vector, from something in the ball
     /// `film`. Rays spread by [`SPREAD`].
     ///
-    /// What holds for two balls holds for all balls around them, so whole branches of a tree can be left out.
+    /// If it is true of two balls, it is true of all balls around them, so whole branches of a tree can be left out.
     pub fn may_shelter(&self, film: &Self, up: Vec3) -> bool {
         let apart = self.center - film.center;
         let radii = (self.radius + film.radius) * (1.0 + SLACK) + SLACK * SLACK * apart.length();

@@ -128,7 +128,7 @@ impl FilmState {
     /// Tears the edge of `h`, whatever holds it, and separates its ends from the metal, between two steps. Returns
     /// whether there was such an edge, bound between two faces.
     ///
-    /// What happened is appended to [`FilmState::changes`]. See [`edit`](self) for an example.
+    /// The changes are appended to [`FilmState::changes`]. See [`edit`](self) for an example.
     pub fn tear_edge(&mut self, h: HalfEdgeId, settings: &CoatingSettings, environment: &Environment) -> bool {
         let found = tear_edge(self.parts(), settings, environment, h);
         found.map(|found| self.changes.append(found)).is_some()
@@ -136,7 +136,7 @@ impl FilmState {
 
     /// Cuts out the face `f` and removes it, between two steps. Returns whether there was such a face.
     ///
-    /// What happened is appended to [`FilmState::changes`]. See [`edit`](self) for an example.
+    /// The changes are appended to [`FilmState::changes`]. See [`edit`](self) for an example.
     pub fn strip_face(&mut self, f: FaceId, settings: &CoatingSettings, environment: &Environment) -> bool {
         let found = strip_face(self.parts(), settings, environment, f);
         found.map(|found| self.changes.append(found)).is_some()

@@ -26,9 +26,6 @@ use crate::{
     film::Geometry,
 };
 
-/// Smallest credit that a film gains in a frame; a film that fills the view gains 1. So no film is postponed more than
-/// 16 times longer than another.
-const LEAST_SHARE: f32 = 1.0 / 16.0;
 /// Cost of a step in which nothing moves, in moving vertices.
 const FIXED_COST: usize = 200;
 /// Weight of the last frame in the running mean of the cost of a vertex.
@@ -108,7 +105,7 @@ fn share_budget(
     for candidate in candidates.iter_mut() {
         let Ok((_, mut pace, _, transform)) = films.get_mut(world, candidate.entity) else { continue };
         let pace = pace.bypass_change_detection();
-        pace.credit += share_of_view(pace, transform, &eyes);
+        pace.credit += pace.share_of_view(transform, &eyes);
         candidate.credit = pace.credit;
     }
     // Ties are decided by entity, so that the order is always the same.
@@ -124,17 +121,6 @@ fn share_budget(
         left -= candidate.seconds;
         pace.credit = 0.0;
     }
-}
-
-/// Returns the size of a film in the view of the nearest camera: its radius over its distance, from [`LEAST_SHARE`] to
-/// 1. Without cameras it is 1 for every film.
-fn share_of_view(pace: &FilmPace, transform: &GlobalTransform, eyes: &[Vec3]) -> f32 {
-    let (_, rotation, translation) = transform.to_scale_rotation_translation();
-    let middle = translation + rotation * pace.bounds.0;
-    let nearest = eyes.iter().map(|eye| eye.distance(middle)).reduce(f32::min);
-    let share = nearest.map_or(1.0, |distance| pace.bounds.1 / distance);
-    // A film without extent at a camera gives NaN, which counts as the least.
-    if share > LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
 }
 
 impl StepCost {

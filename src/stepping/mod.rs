@@ -6,6 +6,7 @@
 
 mod budget;
 mod checks;
+mod edit;
 mod follow;
 mod frame_time;
 mod reached;
@@ -16,6 +17,7 @@ mod systems;
 
 pub(crate) use budget::{StepCost, bounds};
 pub(crate) use checks::{check_clock, check_weather};
+pub use edit::FilmEdit;
 pub(crate) use follow::follow_coatings;
 pub(crate) use reached::ReachedPace;
 pub(crate) use runner::advance;

@@ -23,6 +23,7 @@ use crate::{
     sim::{FilmClock, Stage},
     stain::StainFields,
 };
+
 /// Reports the first crack and fallen pieces of the due films, and adds up what display has to follow.
 pub(super) fn report(
     mut films: Query<(
@@ -45,42 +46,53 @@ pub(super) fn report(
             if !pace.due {
                 continue;
             }
-            let world = FilmToWorld { transform, scale: source.scale, origin: source.origin };
-            if let (false, Some(&edge)) = (pace.cracked, changes.torn.first()) {
-                pace.cracked = true;
-                let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
-                let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
-                cracks.write(FirstCrack { entity, age: clock.age(), position: world.point((a + b) / 2.0) });
-            }
-            let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
-            for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {
-                pieces.write(PieceFallen {
-                    entity,
-                    position: world.point(debris.position),
-                    normal: world.direction(debris.normal),
-                    size: debris.area.sqrt(),
-                    faces: debris.faces,
-                });
-            }
+            let film = FilmInWorld { entity, mesh, clock, source, transform };
+            film.tell(&mut pace.cracked, changes, &mut cracks, &mut pieces);
             display.bypass_change_detection().record(changes, stains);
         }
     });
 }
 
-/// From a film's space, which has the world scale applied, to the world.
-struct FilmToWorld<'a> {
-    transform: &'a GlobalTransform,
-    scale: Vec3,
-    origin: Vec3,
+/// Film and its place in the world.
+pub(super) struct FilmInWorld<'a> {
+    pub entity: Entity,
+    pub mesh: &'a FilmMesh,
+    pub clock: &'a FilmClock,
+    pub source: &'a FilmSource,
+    pub transform: &'a GlobalTransform,
 }
 
-impl FilmToWorld<'_> {
-    fn point(&self, p: Vec3) -> Vec3 {
-        self.transform.transform_point((p + self.origin) / self.scale)
+impl FilmInWorld<'_> {
+    /// Tells of the first crack, unless the film has `cracked` before, and of the pieces that fell.
+    pub fn tell(
+        &self,
+        cracked: &mut bool,
+        changes: &FilmChanges,
+        cracks: &mut MessageWriter<FirstCrack>,
+        pieces: &mut MessageWriter<PieceFallen>,
+    ) {
+        let Self { entity, mesh, clock, source, .. } = *self;
+        if let (false, Some(&edge)) = (*cracked, changes.torn.first()) {
+            *cracked = true;
+            let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
+            let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
+            cracks.write(FirstCrack { entity, age: clock.age(), position: self.point((a + b) / 2.0) });
+        }
+        let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
+        for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {
+            pieces.write(PieceFallen {
+                entity,
+                position: self.point(debris.position),
+                // Normals turn with the film, which is rotated but not scaled.
+                normal: self.transform.rotation() * debris.normal,
+                size: debris.area.sqrt(),
+                faces: debris.faces,
+            });
+        }
     }
 
-    fn direction(&self, d: Vec3) -> Vec3 {
-        // Normals turn with the film, which is rotated but not scaled.
-        self.transform.rotation() * d
+    /// Returns a point of the film's space, which has the world scale applied, in the world.
+    fn point(&self, p: Vec3) -> Vec3 {
+        self.transform.transform_point((p + self.source.origin) / self.source.scale)
     }
 }

@@ -35,12 +35,12 @@ pub fn data(name: &str) -> Model {
     Input::File(path).read(0, Images::Load).expect("a model")
 }
 
-fn built(builder: &Builder) -> Model {
+pub fn built(builder: &Builder) -> Model {
     Model::from_gltf(&builder.glb(), None, Images::Load).expect("a model")
 }
 
-const SMALL: StainOutput = StainOutput::Textures(64);
-const ALL: [StainOutput; 3] = [SMALL, StainOutput::VertexColors, StainOutput::None];
+pub const SMALL: StainOutput = StainOutput::Textures(64);
+pub const ALL: [StainOutput; 3] = [SMALL, StainOutput::VertexColors, StainOutput::None];
 
 /// Corners of everything that a file draws in its default scene, with the node and the name of the material.
 pub fn drawn(glb: &Glb) -> Vec<(usize, String, [[f64; 3]; 3])> {
@@ -333,67 +333,6 @@ fn extensions_that_change_no_triangle_may_be_required() {
     }
 }
 
-#[test]
-fn names_are_kept_in_the_file_and_escaped_in_messages() {
-    let model = data("odd_names.glb");
-    let name = model.meshes[0].name.clone();
-    let (glb, warnings) = aged(model, &quick(0.6), SMALL);
-    assert_eq!(glb.root["nodes"][0]["name"], name.as_str());
-    assert!(name.contains('\n') && name.contains('\u{1b}'));
-    assert!(!warnings.is_empty());
-    for text in warnings.iter().map(ToString::to_string) {
-        assert!(!text.chars().any(char::is_control), "{text:?}");
-        assert!(text.contains("line one\\nline two \"quoted\" \\u{1b}[31mred"), "{text:?}");
-    }
-}
-
-#[test]
-fn textures_without_coordinates_are_left_out_with_a_warning() {
-    for stains in ALL {
-        let (glb, warnings) = aged(data("normals_without_uvs.glb"), &quick(0.6), stains);
-        let [BakeWarning::Repeated { first, more: 1 }] = &warnings[..] else { panic!("{warnings:?}") };
-        assert!(matches!(**first, BakeWarning::TexturesWithoutCoordinates { count: 1, .. }), "{warnings:?}");
-        assert!(drawn(&glb).len() > 500);
-    }
-}
-
-#[test]
-fn references_to_textures_that_do_not_exist_are_left_out_with_a_warning() {
-    for stains in ALL {
-        let (glb, warnings) = aged(data("dangling_texture.glb"), &quick(0.6), stains);
-        assert_eq!(warnings[0], BakeWarning::DanglingTextures { count: 1 }, "{warnings:?}");
-        // The rest of the material is there.
-        assert_eq!(glb.root["materials"][0]["emissiveTexture"]["index"], 0);
-    }
-}
-
-#[test]
-fn accessors_of_nothing_do_not_take_memory() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bake/data/zero_positions.glb");
-    let error = Input::File(path).read(0, Images::Load).expect_err("too many").to_string();
-    assert!(error.contains("zero_positions.glb") && error.contains("more than 65536"), "{error}");
-}
-
-#[test]
-fn images_that_share_bytes_share_them_to_the_end() {
-    let mut builder = Builder::new();
-    let plate = builder.plate(3, &["NORMAL", "TEXCOORD_0"]);
-    let image = builder.view(&[b"\x89PNG\r\n\x1a\n".as_slice(), &[7; 100_000]].concat());
-    let images = vec![json!({ "bufferView": image, "mimeType": "image/png" }); 8_000];
-    builder.root = json!({
-        "asset": { "version": "2.0" },
-        "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [plate] }],
-        "materials": [{}],
-        "images": images
-    });
-    let model = built(&builder);
-    assert!(model.materials.images.iter().all(|image| std::ptr::eq(&*image.bytes, &*model.materials.images[0].bytes)));
-    let (glb, _) = aged(model, &quick(0.0), StainOutput::None);
-    assert_eq!(glb.list("images").len(), 8_000);
-    assert!(glb.binary.len() < 1_000_000, "{}", glb.binary.len());
-}
-
 /// A window frame with a pane, and a lens of transmissive glass.
 fn window() -> Builder {
     let mut builder = Builder::new();
@@ -515,41 +454,6 @@ fn skins_and_morph_targets_go_with_a_warning_and_the_rest_of_them_stays() {
     assert_eq!(glb.root["nodes"][0], json!({ "name": "flag", "mesh": 0 }));
 }
 
-/// References that lead nowhere are errors that name them.
-#[test]
-fn dangling_references_are_refused_by_name() {
-    let mut builder = Builder::new();
-    let plate = builder.plate(3, &["NORMAL"]);
-    builder.root = json!({
-        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0 }, {}], "meshes": [{ "primitives": [plate] }], "materials": [{}],
-        "animations": [{
-            "channels": [{ "sampler": 0, "target": { "node": 0, "path": "scale" } }],
-            "samplers": [{ "input": 0, "output": 0 }]
-        }],
-        "skins": [{ "joints": [1] }]
-    });
-    let cases: [(&dyn Fn(&mut Value), &str); 7] = [
-        (&|d| d["nodes"][1]["camera"] = 0.into(), "node 1 refers to camera 0"),
-        (&|d| d["nodes"][1]["mesh"] = 9.into(), "node 1 refers to mesh 9"),
-        (&|d| d["skins"][0]["joints"] = json!([5]), "skin 0 refers to node 5"),
-        (&|d| d["animations"][0]["samplers"][0]["output"] = 99.into(), "animation 0 refers to accessor 99"),
-        (&|d| d["animations"][0]["channels"][0]["sampler"] = 3.into(), "animation 0 refers to sampler 3"),
-        (&|d| d["scenes"] = json!([{ "nodes": [0] }, { "nodes": [7] }]), "scene 1 refers to node 7"),
-        (
-            &|d| d["meshes"] = json!([d["meshes"][0].clone(), { "primitives": [{ "attributes": { "_A": 77 } }] }]),
-            "mesh 1 refers to accessor 77",
-        ),
-    ];
-    for (change, expected) in cases {
-        let mut faulty = builder.clone();
-        change(&mut faulty.root);
-        let error = Model::from_gltf(&faulty.glb(), None, Images::Load).expect_err(expected).to_string();
-        assert!(error.contains(expected), "{error}");
-        assert!(Model::from_gltf(&faulty.glb(), None, Images::Skip).is_ok(), "figures need none of it: {expected}");
-    }
-}
-
 /// A fresh film shows the prop's own texture at the middles of its triangles.
 #[test]
 fn a_colour_texture_on_a_third_set_of_coordinates_looks_right() {
@@ -604,43 +508,6 @@ fn a_colour_texture_on_a_third_set_of_coordinates_looks_right() {
     }
     let mean = error / f64::from(count);
     assert!(mean < 4.0, "colours are {mean} of 255 off in the mean");
-}
-
-/// Equal meshes are many small props, not many large ones.
-#[test]
-fn texels_are_shared_by_all_of_a_file() {
-    let (glb, warnings) = aged(data("many_nodes_40.glb"), &quick(0.6), StainOutput::Textures(1024));
-    assert!(warnings.len() <= 3 && warnings.iter().all(|w| matches!(w, BakeWarning::Repeated { .. })), "{warnings:?}");
-    let texels: u64 = (0..glb.list("images").len())
-        .map(|i| png::Decoder::new(std::io::Cursor::new(glb.image(i))).read_info().expect("a PNG").info().size())
-        .map(|(width, height)| u64::from(width) * u64::from(height))
-        .sum();
-    // Three textures of paint and three of backs and metal, as of one prop; sides are multiples of 64.
-    assert!(texels < 2 * 6 * 1024 * 1024, "{texels}");
-    assert!(glb.binary.len() < 8 << 20, "{}", glb.binary.len());
-    assert_eq!(glb.list("meshes").len(), 40, "each beam ages by itself");
-}
-
-/// Hundreds of equal beams take time and space in proportion to their area.
-#[test]
-fn a_truss_of_many_beams_ages_in_time() {
-    let mut builder = Builder::new();
-    let beam = builder.plate(2, &["NORMAL", "TEXCOORD_0"]);
-    let nodes =
-        (0..300).map(|i| json!({ "mesh": 0, "name": format!("beam {i}"), "translation": [f64::from(i), 0, 0] }));
-    builder.root = json!({
-        "asset": { "version": "2.0" },
-        "nodes": nodes.collect::<Vec<Value>>(),
-        "meshes": [{ "name": "beam", "primitives": [beam] }],
-        "materials": [{ "name": "paint" }]
-    });
-    let start = std::time::Instant::now();
-    let (glb, warnings) = aged(built(&builder), &quick(0.6), StainOutput::default());
-    assert!(warnings.len() <= 2, "{warnings:?}");
-    let size = glb.binary.len() + glb.root.to_string().len();
-    assert!(size < 12_000_000, "{size}");
-    // Some five seconds of one core, and room for loaded machines. Large textures for each would take ten minutes.
-    assert!(start.elapsed().as_secs() < 120, "{:?}", start.elapsed());
 }
 
 /// Every small case of the project's data, if it is there.

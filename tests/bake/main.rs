@@ -5,6 +5,7 @@ mod strict;
 mod tool;
 
 mod carried;
+mod faulty;
 mod figures;
 mod files;
 mod masks;

@@ -20,6 +20,7 @@ mod budget;
 mod clock;
 mod clones;
 mod display;
+mod edits;
 mod groups;
 #[cfg(feature = "render")]
 mod mask_picture;

@@ -226,7 +226,7 @@ fn images_are_known_by_their_bytes() {
     assert_eq!(types, ["image/jpeg", "image/jpeg", "image/png", "image/vendor"]);
 }
 
-/// What lies beside the folder is the user's own; images are not worth an error.
+/// Files beside the folder are the user's own; images are not worth an error.
 #[test]
 fn files_lead_out_of_the_folder_and_images_may_be_missing() {
     let folder = tempfile::tempdir().unwrap();
