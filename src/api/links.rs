@@ -1,5 +1,7 @@
 //! Links the entities of a coating: its root, its films, the prop's meshes and the children that the plugin spawns.
 
+use std::sync::Arc;
+
 use bevy::{
     asset::{AssetId, Handle},
     ecs::{
@@ -98,7 +100,8 @@ pub(crate) struct RefusedKey {
     pub valid: bool,
 }
 
-/// Marker of a film that is to be built again, because its coating changed. The film stays until the new one is ready.
+/// Marker of a film that is to be built again, or is being, because its coating changed. The film stays until the new one
+/// is ready.
 #[derive(Component, Clone, Copy, Debug)]
 #[component(clone_behavior = Ignore)]
 pub(crate) struct FilmOutdated;
@@ -120,6 +123,8 @@ pub(crate) struct FilmRefused {
     pub root: Entity,
     /// Entity that the film would have been on.
     pub film: Entity,
+    /// All meshes that would have shared the film.
+    pub mates: Arc<[Entity]>,
     /// Fault of the prop.
     pub cause: CoatingFault,
     /// Things that the fault may lie in, as they were.

@@ -28,8 +28,10 @@ use bevy::{
 pub struct CoatingStatus {
     /// Number of mesh entities whose film is being built, or that wait for assets to load.
     pub waiting: usize,
-    /// Number of mesh entities that could not be coated.
+    /// Number of mesh entities that could not be coated, and are not being tried again.
     pub refused: usize,
+    /// Number of films that are built again, because their coating changed. They age and are shown until then.
+    pub renewing: usize,
     /// Number of films that are ready.
     pub films: usize,
     /// Number of films that took a step in the last frame.

@@ -5,7 +5,7 @@ use bevy::{
     asset::AssetServer,
     ecs::{
         entity::Entity,
-        query::With,
+        query::{With, Without},
         system::{Commands, Query},
         world::World,
     },
@@ -58,7 +58,7 @@ pub(super) fn begin_builds(
     world: &World,
     mut commands: Commands,
     awaiting: Query<(Entity, &AwaitingFilm)>,
-    outdated: Query<(Entity, &CoatedBy, &FilmSource), With<FilmOutdated>>,
+    outdated: Query<(Entity, &CoatedBy, &FilmSource), (With<FilmOutdated>, Without<FilmBuild>)>,
     films: Films,
     refused: Query<&FilmRefused>,
 ) {
@@ -239,5 +239,5 @@ fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candid
     let seed = order.seed;
     let task = AsyncComputeTaskPool::get().spawn(build_film(order));
     let build = FilmBuild { task, root, slots, key, seed, scale, area };
-    commands.entity(film).try_remove::<FilmOutdated>().try_insert((CoatedBy(root), build));
+    commands.entity(film).try_insert((CoatedBy(root), build));
 }

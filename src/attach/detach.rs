@@ -115,7 +115,8 @@ fn drop_slot(world: &mut World, film: Entity, slot: Entity) {
             detach_now(world, film);
             return;
         }
-        entity.remove::<FilmBuild>().insert(FilmOutdated);
+        // It is still outdated, and built again without the mesh.
+        entity.remove::<FilmBuild>();
     }
     let Some(mut source) = entity.get_mut::<FilmSource>() else { return };
     let Some(number) = source.slots.iter().position(|&own| own == slot) else { return };

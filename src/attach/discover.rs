@@ -124,8 +124,7 @@ pub(super) fn find_outdated(
         if build.is_some_and(|build| build.key != wanted) {
             commands.try_remove::<FilmBuild>();
         }
-        let building = build.is_some_and(|build| build.key == wanted);
-        let outdates = source.key != wanted && source.refused != Some(asked) && !building;
+        let outdates = source.key != wanted && source.refused != Some(asked);
         if outdates && !outdated {
             commands.try_insert(FilmOutdated);
         } else if outdated && !outdates {

@@ -1,5 +1,7 @@
 //! Puts finished films on their props, and refuses meshes that could not be coated.
 
+use std::sync::Arc;
+
 use bevy::{
     asset::Assets,
     ecs::{
@@ -39,6 +41,10 @@ pub(super) fn finish_builds(
     mut assets: ResMut<Assets<Mesh>>,
 ) {
     for (film, mut build, old) in &mut builds {
+        // A build that is not wanted any more is called off by `find_outdated` in this frame.
+        if coatings.get(build.root).is_ok_and(|coating| coating.key() != build.key) {
+            continue;
+        }
         let Some(result) = check_ready(&mut build.task) else { continue };
         // If a mesh was swapped or despawned meanwhile, the build is discarded and the meshes are checked again.
         let current = |&slot: &Entity| {
@@ -138,12 +144,13 @@ pub(super) fn refuse(
 ) {
     tell(commands, film, root, &meshes, refused, &cause);
     commands.queue(move |world: &mut World| {
+        let mates: Arc<[Entity]> = meshes.as_slice().into();
         for mesh in meshes {
             let seen = suspects_of(world, mesh, root);
             let Ok(mut entity) = world.get_entity_mut(mesh) else { continue };
             entity.remove::<(AwaitingFilm, FilmSlot, LeftAlone)>();
             if let Some(seen) = seen {
-                entity.insert(FilmRefused { root, film, cause: cause.clone(), seen });
+                entity.insert(FilmRefused { root, film, mates: mates.clone(), cause: cause.clone(), seen });
             }
         }
     });

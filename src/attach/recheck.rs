@@ -16,17 +16,18 @@ use super::suspects::suspects_of;
 use crate::{
     api::{
         coating::{Coating, SettingsSource},
-        links::{AwaitingFilm, FilmRefused, LeftAlone, Suspects},
+        links::{AwaitingFilm, FilmRefused, FilmSlot, LeftAlone, Suspects},
     },
     settings::CoatingSettings,
 };
 
-/// Marks refused meshes as awaiting again when their mesh, material, settings, components, scale or coating changed.
-/// All meshes that would have shared a film are looked at together.
+/// Marks refused meshes, unless they are being built again, as awaiting when their mesh, material, settings, components,
+/// scale or coating changed. All meshes that would have shared a film are looked at together.
 pub(super) fn recheck_refused(
     world: &World,
     mut commands: Commands,
-    refused: Query<(Entity, &FilmRefused), Without<AwaitingFilm>>,
+    refused: Query<(Entity, &FilmRefused), (Without<AwaitingFilm>, Without<FilmSlot>)>,
+    marks: Query<&FilmRefused>,
     left_alone: Query<(Entity, &LeftAlone), Without<AwaitingFilm>>,
     mut meshes: MessageReader<AssetEvent<Mesh>>,
     mut settings: MessageReader<AssetEvent<CoatingSettings>>,
@@ -54,7 +55,10 @@ pub(super) fn recheck_refused(
         reloaded || meshes.contains(&seen.mesh) || suspects_of(world, entity, root).as_ref() != Some(seen)
     };
     again.clear();
-    again.extend(refused.iter().filter(|(entity, r)| changed(*entity, r.root, &r.seen)).map(|(_, r)| r.film));
+    // A mate that was swapped, moved away or despawned may have been the cause, too.
+    let parted = |r: &FilmRefused| r.mates.iter().any(|&mate| marks.get(mate).map_or(true, |m| m.film != r.film));
+    let retried = refused.iter().filter(|(entity, r)| changed(*entity, r.root, &r.seen) || parted(r));
+    again.extend(retried.map(|(_, r)| r.film));
     for (entity, FilmRefused { root, film, .. }) in &refused {
         if again.contains(film) {
             commands.entity(entity).try_insert(AwaitingFilm { root: *root });

@@ -8,7 +8,7 @@ use web_time::Instant;
 use bevy::{
     ecs::{
         change_detection::DetectChangesMut,
-        query::{QueryState, With},
+        query::{QueryState, With, Without},
         world::World,
     },
     time::Time,
@@ -26,7 +26,7 @@ use crate::{
         clock::{CoatingClock, CoatingGravity},
         display_cost::DisplayCost,
         film_pace::FilmPace,
-        links::{AwaitingFilm, FilmRefused, FilmSlot},
+        links::{AwaitingFilm, FilmOutdated, FilmRefused, FilmSlot},
         status::CoatingStatus,
         system_sets::CoatingStep,
         weather::CoatingWeather,
@@ -53,7 +53,8 @@ pub(crate) fn advance(
     world: &mut World,
     films: &mut Films,
     waiting: &mut QueryState<(), With<AwaitingFilm>>,
-    refused: &mut QueryState<(), With<FilmRefused>>,
+    refused: &mut QueryState<(), (With<FilmRefused>, Without<AwaitingFilm>, Without<FilmSlot>)>,
+    outdated: &mut QueryState<(), With<FilmOutdated>>,
     building: &mut QueryState<&FilmSlot>,
     budget_films: &mut BudgetFilms,
     cameras: &mut Cameras,
@@ -85,6 +86,7 @@ pub(crate) fn advance(
     status.waiting =
         waiting.iter(world).count() + building.iter(world).filter(|slot| slot.display_mesh.is_none()).count();
     status.refused = refused.iter(world).count();
+    status.renewing = outdated.iter(world).count();
     status.age_per_second = world.resource_mut::<ReachedPace>().add(age * time.now(), seconds);
     let mut current = world.resource_mut::<CoatingStatus>();
     current.set_if_neq(status);

@@ -105,9 +105,9 @@ impl Soak {
     /// Mends what is broken, waits until all films are built and all rays cast, and looks at everything.
     fn rest(&mut self) {
         self.mend_all();
-        self.wait("films to be built", |status| status.waiting == 0 && status.refused == 0);
+        self.wait("films to be built", |status| (status.waiting, status.refused, status.renewing) == (0, 0, 0));
         self.app.world_mut().resource_mut::<CoatingClock>().paused = false;
-        self.wait("rays to be cast", |status| status.casting == 0 && status.waiting == 0);
+        self.wait("rays to be cast", |status| (status.casting, status.waiting, status.renewing) == (0, 0, 0));
         self.oracle.compare_at_rest(&mut self.app);
         self.oracle.look_at_everything(&mut self.app);
     }

@@ -145,11 +145,14 @@ impl Oracle {
                 assert_ne!(*shown, shape.mesh, "{entity} of {root} shows its own mesh");
                 assert!(displays.insert(shown.id()), "two meshes show the film of {entity}");
                 let mesh = world.resource::<Assets<Mesh>>().get(shown).expect("the mesh of a film");
-                // Flakes curl away from their places, but not as far as the mesh beside is.
                 let positions =
                     mesh.attribute(Mesh::ATTRIBUTE_POSITION).and_then(|p| p.as_float3()).expect("positions");
-                let is_there = |p: &[f32; 3]| if shape.beside { p[0] > 1.1 } else { p[0] < 1.4 };
-                assert!(positions.iter().all(is_there), "{entity} of {root} shows what is not there");
+                // Flakes curl away from their places, but in the mean the film is where its mesh is. Where all has
+                // fallen, one triangle without area is drawn.
+                let mean = positions.iter().map(|p| p[0]).sum::<f32>() / positions.len() as f32;
+                let is_there = if shape.beside { mean > 1.25 } else { mean < 1.25 };
+                let is_empty = positions.iter().all(|p| *p == [0.0; 3]);
+                assert!(is_there || is_empty, "{entity} of {root}, beside: {}, shows {mean}", shape.beside);
             }
         }
         for (film, triangles) in films {
