@@ -18,10 +18,11 @@ use bevy::{
 /// in a later frame, in the same order of preference; what they missed is shown together. Ageing does not wait for it.
 ///
 /// A frame is worth less age for all films alike when a film would need more than [`max_steps`](Self::max_steps), when
-/// time runs out, or when postponed films are several frames' worth of steps behind: on a slow machine paint ages more slowly instead of making frames stutter, and each prop keeps its
-/// [rate](super::coating::Coating::rate) beside the others. [`CoatingStatus`](super::status::CoatingStatus) tells the
-/// pace that is reached. At least one step is taken in a frame in which any is due. Steps that were
-/// [requested](super::clock::CoatingClock::request_steps) are never dropped.
+/// time runs out, or when postponed films are several frames' worth of steps behind: on a slow machine paint ages more
+/// slowly instead of making frames stutter, and each prop keeps its [rate](super::coating::Coating::rate) beside the
+/// others. [`CoatingStatus`](super::status::CoatingStatus) tells the pace that is reached. At least one step is taken
+/// in a frame in which any is due. Steps that were [requested](super::clock::CoatingClock::request_steps) are never
+/// dropped.
 ///
 /// ```
 /// use std::time::Duration;

@@ -299,8 +299,8 @@ impl Coating {
     }
 }
 
-/// Fields of a [`Coating`] that decide how a film is built. Two keys are equal if their bits are, so that a field that is
-/// NaN does not look changed all the time.
+/// Fields of a [`Coating`] that decide how a film is built. Two keys are equal if their bits are, so that a field that
+/// is NaN does not look changed all the time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FilmKey {
     pub seed: Option<u64>,

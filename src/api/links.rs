@@ -100,8 +100,8 @@ pub(crate) struct RefusedKey {
     pub valid: bool,
 }
 
-/// Marker of a film that is to be built again, or is being, because its coating changed. The film stays until the new one
-/// is ready.
+/// Marker of a film that is to be built again, or is being, because its coating changed. The film stays until the new
+/// one is ready.
 #[derive(Component, Clone, Copy, Debug)]
 #[component(clone_behavior = Ignore)]
 pub(crate) struct FilmOutdated;

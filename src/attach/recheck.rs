@@ -21,8 +21,8 @@ use crate::{
     settings::CoatingSettings,
 };
 
-/// Marks refused meshes, unless they are being built again, as awaiting when their mesh, material, settings, components,
-/// scale or coating changed. All meshes that would have shared a film are looked at together.
+/// Marks refused meshes, unless they are being built again, as awaiting when their mesh, material, settings,
+/// components, scale or coating changed. All meshes that would have shared a film are looked at together.
 pub(super) fn recheck_refused(
     world: &World,
     mut commands: Commands,

@@ -50,28 +50,34 @@ impl PlainConstraints {
         }
     }
 
-    /// Sweeps once: solves every bend in turn, then every length.
+    /// Sweeps once: solves every bend in turn, then every length. After each of the two the vertices below their planes
+    /// are lifted onto them, all at once: lifted one by one, in the middle of a pass, the vertices of a loose piece
+    /// would push it off the metal instead of bending it.
     pub fn sweep(&self, geometry: &mut Geometry) {
-        let (rest, normals) = (&geometry.rest_positions, &geometry.rest_normals);
         let positions = &mut geometry.positions;
         for bend in &self.bends {
             let (p, w) = self.gather(positions, bend.points);
-            let Some(corrections) = bend_corrections(p, w, bend.reach, bend.rest_medians) else { continue };
-            for i in 0..4 {
-                if w[i] > 0.0 {
-                    let v = bend.points[i] as usize;
-                    positions[v] = above_plane(p[i] + corrections[i], rest[v], normals[v]);
-                }
+            if let Some(corrections) = bend_corrections(p, w, bend.reach, bend.rest_medians) {
+                apply(positions, bend.points, w, corrections);
             }
         }
+        self.lift(geometry);
+        let positions = &mut geometry.positions;
         for length in &self.lengths {
             let (p, w) = self.gather(positions, length.ends);
-            let Some(corrections) = length_corrections(p, w, length.rest) else { continue };
-            for i in 0..2 {
-                if w[i] > 0.0 {
-                    let v = length.ends[i] as usize;
-                    positions[v] = above_plane(p[i] + corrections[i], rest[v], normals[v]);
-                }
+            if let Some(corrections) = length_corrections(p, w, length.rest) {
+                apply(positions, length.ends, w, corrections);
+            }
+        }
+        self.lift(geometry);
+    }
+
+    /// Lifts onto their planes the vertices that are free and below (VC 5).
+    fn lift(&self, geometry: &mut Geometry) {
+        let planes = geometry.rest_positions.iter().zip(&geometry.rest_normals);
+        for ((p, (&rest, &normal)), &w) in geometry.positions.iter_mut().zip(planes).zip(&self.inverse_masses) {
+            if w > 0.0 {
+                *p = above_plane(*p, rest, normal);
             }
         }
     }
@@ -79,5 +85,15 @@ impl PlainConstraints {
     #[inline]
     fn gather<const N: usize>(&self, positions: &[Vec3], points: [u32; N]) -> ([Vec3; N], [f32; N]) {
         (points.map(|v| positions[v as usize]), points.map(|v| self.inverse_masses[v as usize]))
+    }
+}
+
+/// Moves the points that are free by their corrections.
+#[inline]
+fn apply<const N: usize>(positions: &mut [Vec3], points: [u32; N], w: [f32; N], corrections: [Vec3; N]) {
+    for ((v, w), correction) in points.into_iter().zip(w).zip(corrections) {
+        if w > 0.0 {
+            positions[v as usize] += correction;
+        }
     }
 }

@@ -41,7 +41,7 @@ pub(super) enum Renewal {
     Nothing,
     /// Vertices are numbered afresh.
     Vertices,
-    /// All that was drawn is void: it is a new part, or the paint has changed.
+    /// Everything that was drawn is void: the part is new, or its paint has changed.
     Everything,
 }
 

@@ -262,7 +262,7 @@ fn presets_are_those_of_the_method() {
 
 #[test]
 fn every_preset_file_is_built_in() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/presets");
+    let folder = "assets/presets";
     let mut files: Vec<_> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     files.sort();
@@ -271,7 +271,7 @@ fn every_preset_file_is_built_in() {
 
 #[test]
 fn the_guide_lists_every_setting() {
-    let guide = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/settings.md")).unwrap();
+    let guide = std::fs::read_to_string("docs/settings.md").unwrap();
     let rows: Vec<_> = guide.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
     for (field, row) in CoatingSettings::fields().zip(rows) {
         let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);

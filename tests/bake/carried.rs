@@ -31,7 +31,7 @@ pub fn aged(model: Model, options: &BakeOptions, stains: StainOutput) -> (Glb, V
 }
 
 pub fn data(name: &str) -> Model {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bake/data").join(name);
+    let path = Path::new("tests/bake/data").join(name);
     Input::File(path).read(0, Images::Load).expect("a model")
 }
 
@@ -103,7 +103,7 @@ fn bounds(corners: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
 
 /// A file as it was before it aged.
 pub fn input(name: &str) -> Glb {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bake/data").join(name);
+    let path = Path::new("tests/bake/data").join(name);
     Glb::new(&fs::read(path).expect("a file"))
 }
 
@@ -513,7 +513,7 @@ fn a_colour_texture_on_a_third_set_of_coordinates_looks_right() {
 /// Every small case of the project's data, if it is there.
 #[test]
 fn cases_from_elsewhere_are_valid_once_aged() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/cases");
+    let folder = Path::new("../shared/cases");
     let Ok(entries) = fs::read_dir(&folder) else {
         eprintln!("skipped: {} is not there", folder.display());
         return;

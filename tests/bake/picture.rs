@@ -38,7 +38,7 @@ fn images_loaded(app: &mut App) -> bool {
 
 #[test]
 fn a_fresh_baked_prop_looks_like_the_prop() {
-    let prop = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/props/prop_firehydrant.glb");
+    let prop = Path::new("assets/props/prop_firehydrant.glb");
     let folder = tool::folder();
     fs::copy(&prop, folder.path().join("prop.glb")).expect("the prop");
     let quick = ["--steps", "250", "--set", "deform.sweeps_per_age=2500"];

@@ -30,7 +30,7 @@ const PROPS: [Prop; 2] = [
     },
 ];
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/props");
+const FOLDER: &str = "assets/props";
 
 /// Where to leave the pictures: `COATING_PICTURES`, if set.
 fn output() -> Option<PathBuf> {
