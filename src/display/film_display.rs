@@ -162,7 +162,10 @@ impl FilmDisplay {
     }
 
     /// Returns whether `entity` draws the film's backs or metal.
-    pub fn has_part(&self, #[cfg_attr(not(feature = "render"), expect(unused_variables))] entity: Entity) -> bool {
+    pub fn has_part(
+        &self,
+        #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "no parts"))] entity: Entity,
+    ) -> bool {
         #[cfg(feature = "render")]
         return self.parts.contains(entity);
         #[cfg(not(feature = "render"))]
