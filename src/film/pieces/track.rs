@@ -99,7 +99,7 @@ impl FilmPieces {
         self.note(h.face());
     }
 
-    /// Records that `edge` has torn. `ends` is the result of [`Topology::tear`], and `is_attached` says whether a
+    /// Records that `edge` has torn. `ends` is what the tear did to its two ends, and `is_attached` says whether a
     /// vertex is attached to the metal.
     pub fn edge_torn(
         &mut self,
