@@ -514,7 +514,7 @@ fn a_colour_texture_on_a_third_set_of_coordinates_looks_right() {
 #[test]
 fn cases_from_elsewhere_are_valid_once_aged() {
     let folder = Path::new("../shared/cases");
-    let Ok(entries) = fs::read_dir(&folder) else {
+    let Ok(entries) = fs::read_dir(folder) else {
         eprintln!("skipped: {} is not there", folder.display());
         return;
     };

@@ -40,7 +40,7 @@ fn images_loaded(app: &mut App) -> bool {
 fn a_fresh_baked_prop_looks_like_the_prop() {
     let prop = Path::new("assets/props/prop_firehydrant.glb");
     let folder = tool::folder();
-    fs::copy(&prop, folder.path().join("prop.glb")).expect("the prop");
+    fs::copy(prop, folder.path().join("prop.glb")).expect("the prop");
     let quick = ["--steps", "250", "--set", "deform.sweeps_per_age=2500"];
     for (file, extra) in [
         ("fresh.glb", &["--age", "0"][..]),
