@@ -308,15 +308,21 @@ fn both_solvers_bend_a_disk_alike() {
     assert!(difference < 0.03 * most * plain.len() as f32, "{difference} over {} vertices, {most} high", plain.len());
 }
 
-/// Bends for an age a disk that is let go all at once. Returns the mean height over its metal.
-fn height_of_a_disk_let_go(quality: SolverQuality) -> f32 {
-    let mut mesh = disk(12);
+/// A disk that is let go all at once: a loose piece.
+fn disk_let_go(rings: u32) -> (FilmMesh, FilmConstraints, LoosePieces, FilmChanges) {
+    let mesh = disk(rings);
     let mut constraints = FilmConstraints::new(&mesh);
     let mut changes = FilmChanges::default();
     changes.separated.extend(mesh.topology.all_vertices());
     update_constraints(&mesh, &mut constraints, &changes);
     let mut loose = LoosePieces::default();
     loose.find(&mesh.topology, &mut PieceScratch::default(), |_| false);
+    (mesh, constraints, loose, changes)
+}
+
+/// Bends for an age a disk that is let go all at once. Returns the mean height over its metal.
+fn height_of_a_disk_let_go(quality: SolverQuality) -> f32 {
+    let (mut mesh, mut constraints, loose, mut changes) = disk_let_go(12);
     let (settings, mut scratch) = (DeformSettings::default(), BendScratch::default());
     for step in 1..=1000 {
         let pace = SolvePace::of_step(settings.sweeps_per_age, quality, (step, 1000), step % 10 == 0);
@@ -379,13 +385,7 @@ fn tear(mesh: &mut FilmMesh, h: HalfEdgeId, changes: &mut FilmChanges) {
 
 #[test]
 fn cracks_through_a_sleeping_film_wake_it() {
-    let mut mesh = disk(6);
-    let mut constraints = FilmConstraints::new(&mesh);
-    let mut changes = FilmChanges::default();
-    changes.separated.extend(mesh.topology.all_vertices());
-    update_constraints(&mesh, &mut constraints, &changes);
-    let mut loose = LoosePieces::default();
-    loose.find(&mesh.topology, &mut PieceScratch::default(), |_| false);
+    let (mut mesh, mut constraints, loose, mut changes) = disk_let_go(6);
     let settings = DeformSettings { bend_limit: 0.0, ..DeformSettings::default() };
     let pace = SolvePace { dt: 0.01, sweeps: 1, momentum: 0.0, tick: true, quality: SolverQuality::Default };
     for _ in 0..4 {

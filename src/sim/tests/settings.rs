@@ -37,7 +37,7 @@ fn other(field: &Field, settings: &CoatingSettings) -> f32 {
     other
 }
 
-/// What can be seen of a film: cracks, shape and stains.
+/// Returns cracks, shape and stains of a film: everything that can be seen of it.
 fn looks(film: &FilmState) -> (&FilmMesh, [&StainLayer; 2], &[f32]) {
     (&film.mesh, [&film.stains.film, &film.stains.metal], &film.stains.corrosion)
 }
