@@ -27,6 +27,7 @@ mod event_queue;
 mod follow;
 mod forces;
 mod predictions;
+mod relief;
 mod scratch;
 mod separation;
 mod sigmoid;

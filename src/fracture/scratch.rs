@@ -1,5 +1,6 @@
 //! Holds the buffers of tearing and stripping.
 
+use super::relief::ReliefScratch;
 use crate::film::{HalfEdgeId, PieceScratch};
 
 /// Buffers of [`tear`](super::tear) and [`strip`](super::strip).
@@ -16,6 +17,8 @@ pub struct FractureScratch {
     pub(super) candidates: Vec<Candidate>,
     /// Buffers of the search for connected pieces.
     pub(super) pieces: PieceScratch,
+    /// Buffers of the search for faces beside a tear.
+    pub(super) relief: ReliefScratch,
 }
 
 /// An edge that would tear in the state at the start of the step.

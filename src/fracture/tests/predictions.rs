@@ -135,7 +135,7 @@ impl Pair {
         assert_eq!(*changes, all_changes);
         assert!(*mesh == all_mesh && *forces == all_forces);
 
-        strip(mesh, forces, &settings.stripping, changes, scratch);
+        strip(mesh, forces, &settings.stripping, age, changes, scratch);
         mesh.validate().unwrap();
         forces.validate(&mesh.topology).unwrap();
 
@@ -143,7 +143,7 @@ impl Pair {
         let (mut other_changes, mut other_scratch) = (FilmChanges::default(), FractureScratch::default());
         separate(other_mesh, other_forces, settings, age, &mut other_changes);
         tear(other_mesh, other_forces, &settings.tearing, gravity, &mut other_changes, &mut other_scratch);
-        strip(other_mesh, other_forces, &settings.stripping, &mut other_changes, &mut other_scratch);
+        strip(other_mesh, other_forces, &settings.stripping, age, &mut other_changes, &mut other_scratch);
         assert_eq!(*changes, other_changes);
         assert!(mesh == other_mesh && forces == other_forces);
     }
@@ -203,7 +203,7 @@ fn judged_in_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmFor
         age_forces(&mesh, &mut forces, settings, &[], 1.0 / steps as f32);
         separate(&mesh, &mut forces, settings, step as f32 / steps as f32, &mut changes);
         tear(&mut mesh, &mut forces, &settings.tearing, Vec3::NEG_Y, &mut changes, &mut scratch);
-        strip(&mut mesh, &mut forces, &settings.stripping, &mut changes, &mut scratch);
+        strip(&mut mesh, &mut forces, &settings.stripping, step as f32 / steps as f32, &mut changes, &mut scratch);
     }
     let Predictions { separations, tears, .. } = &forces.predictions;
     ([separations.judged, tears.judged], forces, mesh)
