@@ -124,7 +124,7 @@ impl CurlField {
 
 /// Brings the targets of bends in step with the free edges after the fracture of this step, on a film that is measured
 /// by its [grain](crate::settings::Rules::Grain); by the paper's rules every edge curls by what the settings say. Call it
-/// after [`update_constraints`](super::update_constraints).
+/// after [`update_constraints`](super::update_constraints). Does nothing if nothing fractured.
 ///
 /// The target of an edge narrows by [`bend_limit`](crate::settings::DeformSettings::bend_limit) times d / (0.577 s)
 /// exp(-(x / r)^2): d is the distance of its faces' centroids and s the grain, so that a free strip bends to the same
@@ -157,6 +157,9 @@ pub fn follow_free_edges(
     settings: &CoatingSettings,
     changes: &FilmChanges,
 ) {
+    if !changes.fractured() {
+        return;
+    }
     let topology = &mesh.topology;
     let Some(grain) = settings.scale.grain_of(&mesh.geometry) else {
         if constraints.take_curl().is_some() {
@@ -169,10 +172,6 @@ pub fn follow_free_edges(
     let known = before.filter(|field| (field.grain, field.reach) == (fresh.grain, fresh.reach));
     let is_new = known.is_none();
     let mut field = known.unwrap_or(fresh);
-    if !is_new && !changes.fractured() {
-        constraints.put_curl(field);
-        return;
-    }
     field.follow(topology);
     field.changed.clear();
     let is_free = |v: VertexId| !constraints.is_attached(v);

@@ -24,7 +24,8 @@ impl FilmForces {
     /// of its contraction that a face beside a crack gave up, and the share of its binding that an edge there lost. So
     /// a film follows as if it had had these settings and the same cracks from the start; what has torn stays torn, and
     /// what has separated stays separated. Forces that were set by hand stay as they are. Changing settings and
-    /// changing them back leaves every bit as it was.
+    /// changing them back leaves every bit as it was, except for those of [`ScaleSettings`](crate::settings::ScaleSettings)
+    /// after a tear.
     ///
     /// [`age_forces`](super::age_forces) calls this in every step. Where nothing has changed it takes no time;
     /// otherwise the time is proportional to the size of the film (about a millisecond for 5,000 faces).
@@ -81,7 +82,9 @@ impl FilmForces {
     /// Draws the initial binding of every edge but those that have torn or whose binding was set by hand.
     ///
     /// By the grain an edge is a defect with a probability in proportion to the area of its faces, so that there are as
-    /// many on an area whatever the triangles.
+    /// many on an area whatever the triangles. And an edge shorter than the grain decays beside a crack with a
+    /// probability of the root of its length in grains: fine films have more edges beside each crack, and would branch
+    /// more (junctions of a plate at age 1 with all edges decaying, h = s, s/2, s/4: 138, 201, 210; so: 127, 153, 144).
     pub(super) fn draw_bindings(&mut self, mesh: &FilmMesh, settings: &TearingSettings) {
         let topology = &mesh.topology;
         let per_area = self.drawn.grain.map(|grain| settings.weak_probability / (2.0 * grain.face_area()));
@@ -98,6 +101,17 @@ impl FilmForces {
         for h in topology.all_edges() {
             // Border edges never tear, so no number is drawn for them.
             let is_weak = topology.rest_twin(h).is_some_and(|twin| rng.random::<f32>() < probability(h, twin));
+            let decays = match self.drawn.grain {
+                Some(grain) => {
+                    let length = mesh.geometry.rest_lengths[h.index()] / grain.length;
+                    rng.random::<f32>() < length.sqrt()
+                }
+                None => true,
+            };
+            if self.bindings[h.index()].decays() != decays {
+                self.bindings[h.index()].set_decays(decays);
+                self.update_decay(topology, h);
+            }
             if !topology.is_torn(h) {
                 self.bindings[h.index()].redraw(if is_weak { weak } else { settings.binding });
             }

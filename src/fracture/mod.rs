@@ -26,6 +26,7 @@ mod edit;
 mod event_queue;
 mod follow;
 mod forces;
+mod hold;
 mod predictions;
 mod relief;
 mod scratch;

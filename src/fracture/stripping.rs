@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{forces::FilmForces, scratch::FractureScratch};
+use super::{forces::FilmForces, hold::let_go_of_what_hangs, scratch::FractureScratch};
 use crate::{
     film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh, LoosePiece},
     settings::StrippingSettings,
@@ -65,6 +65,9 @@ pub fn strip(
         if let Some(h) = mesh.topology.fan(changes.separated[i]).next() {
             strip_if_free(mesh, forces, h.face(), changes);
         }
+    }
+    if let Some(grain) = forces.grain() {
+        let_go_of_what_hangs(mesh, forces, settings, grain, age, changes, scratch);
     }
     forces.predictions.pieces.renew(&mesh.topology, &mut forces.loose, &mut scratch.pieces);
     let fell = if forces.grain().is_some() {

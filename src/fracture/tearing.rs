@@ -124,7 +124,7 @@ fn tear_in_order(
     changes: &mut FilmChanges,
     scratch: &mut FractureScratch,
 ) {
-    let FractureScratch { candidates, pieces, relief } = scratch;
+    let FractureScratch { candidates, pieces, relief, .. } = scratch;
     candidates.sort_unstable_by(|a, b| {
         let aligned = |c: &Candidate| c.alignment.unwrap_or(f32::NEG_INFINITY);
         aligned(b).total_cmp(&aligned(a)).then(b.excess.total_cmp(&a.excess)).then(a.edge.cmp(&b.edge))
@@ -196,7 +196,7 @@ pub(super) fn tear_edge(
 /// Returns the direction of a crack that came along `crack` (zero for one that begins) and ran on along `ahead` by
 /// `run`, in lengths over which it forgets by the factor e. So a crack keeps its direction over the same distance
 /// whatever the length of its edges.
-fn remember(crack: Vec3, ahead: Vec3, run: f32) -> Vec3 {
+pub(super) fn remember(crack: Vec3, ahead: Vec3, run: f32) -> Vec3 {
     let kept = ops::exp(-run);
     let direction = (crack * kept + ahead * (1.0 - kept)).normalize_or_zero();
     if crack == Vec3::ZERO || direction == Vec3::ZERO { ahead } else { direction }

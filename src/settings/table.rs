@@ -138,6 +138,10 @@ macro_rules! with_stages {
                 /// place of `fall_faces`. On a film under way a change acts on what hangs loose already. Found by
                 /// trial.
                 hold: f32 = 0.02, closed(0.0, 100.0);
+                /// Area that must hold a piece, in faces whose edges are one grain long, by [`Rules::Grain`]. A piece
+                /// that has torn nearly off and is held by less lets go. At 0 a single vertex holds the largest piece.
+                /// On a film under way a change acts on pieces that tear further. Found by trial.
+                hold_area: f32 = 2.5, closed(0.0, 1000.0);
             }
             /// Rust that runs off below cracks and stains the surface on its way (VC 6.1), and rust of the metal
             /// itself. Lengths are in metres, so that streaks do not depend on the resolution of the film. On a film

@@ -1,6 +1,7 @@
 //! Tests each equation and rule of the fracture stages against an independent derivation.
 
 mod follow;
+mod grain;
 mod predictions;
 
 use core::f32::consts::PI;
