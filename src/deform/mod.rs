@@ -23,6 +23,7 @@
 mod bend;
 mod constraints;
 mod curl;
+mod free_edges;
 mod half_space;
 mod ledger;
 mod length;
@@ -39,7 +40,7 @@ pub(crate) mod tests;
 
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;
-pub use curl::follow_free_edges;
+pub use free_edges::follow_free_edges;
 pub use length::LengthConstraint;
 pub use pace::{SolvePace, SolverQuality, sweeps_and_momentum, sweeps_of_step};
 pub use packed::level::SimdLevel;

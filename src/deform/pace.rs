@@ -102,9 +102,10 @@ impl SolvePace {
     /// Returns the pace of step number `step` (1 is the first) of a film that is measured by its grain, which is
     /// `in_edges` times as long as its mean edge.
     ///
-    /// The progress of wide curls goes with the number of sweeps times the fourth power of the edge, so that many sweeps
-    /// are asked for: `sweeps_per_age` on a film whose mean edge is the grain, 16 times as many where it is half of it.
-    /// Momentum pays for most of them: no film is swept more than twice as often as one whose mean edge is the grain.
+    /// The progress of wide curls goes with the number of sweeps times the fourth power of the edge, so that many
+    /// sweeps are asked for: `sweeps_per_age` on a film whose mean edge is the grain, 16 times as many where it is half
+    /// of it. Momentum pays for most of them: no film is swept more than twice as often as one whose mean edge is the
+    /// grain.
     pub fn of_grain_step(
         sweeps_per_age: f32,
         in_edges: f32,

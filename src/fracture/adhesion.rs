@@ -23,9 +23,9 @@ const PERLIN_DEVIATION: f64 = 0.3103;
 /// The values are Perlin noise with the mean and standard deviation of `settings`; negative values become 0. The noise
 /// runs through [`frequency`](AdhesionSettings::frequency) cycles over the longest side of the bounding box of
 /// `positions`, so the unit of length does not matter. On a film with a `grain` its wavelength is
-/// [`wavelength`](AdhesionSettings::wavelength) grains, but there are at least two cycles. `seed` rotates and shifts the noise at random, so that no
-/// lattice plane of the noise (where Perlin noise is 0) lies in a flat film. If all positions coincide, all values are
-/// equal.
+/// [`wavelength`](AdhesionSettings::wavelength) grains, but there are at least two cycles. `seed` rotates and shifts
+/// the noise at random, so that no lattice plane of the noise (where Perlin noise is 0) lies in a flat film. If all
+/// positions coincide, all values are equal.
 ///
 /// ```
 /// use bevy_coating::{fracture::adhesion_field, settings::AdhesionSettings};

@@ -24,8 +24,8 @@ impl FilmForces {
     /// of its contraction that a face beside a crack gave up, and the share of its binding that an edge there lost. So
     /// a film follows as if it had had these settings and the same cracks from the start; what has torn stays torn, and
     /// what has separated stays separated. Forces that were set by hand stay as they are. Changing settings and
-    /// changing them back leaves every bit as it was, except for those of [`ScaleSettings`](crate::settings::ScaleSettings)
-    /// after a tear.
+    /// changing them back leaves every bit as it was, except for those of
+    /// [`ScaleSettings`](crate::settings::ScaleSettings) after a tear.
     ///
     /// [`age_forces`](super::age_forces) calls this in every step. Where nothing has changed it takes no time;
     /// otherwise the time is proportional to the size of the film (about a millisecond for 5,000 faces).

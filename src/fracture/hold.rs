@@ -1,7 +1,7 @@
 //! Lets go of pieces that hang on by too little, however they came to: beyond the paper.
 //!
-//! A film of fine triangles that has torn nearly off hangs on by single vertices, which are next to nothing; on a coarse
-//! film a vertex stands for much more. So what counts is the area that holds.
+//! A film of fine triangles that has torn nearly off hangs on by single vertices, which are next to nothing; on a
+//! coarse film a vertex stands for much more. So what counts is the area that holds.
 
 use super::{forces::FilmForces, scratch::FractureScratch, separation::let_go};
 use crate::{

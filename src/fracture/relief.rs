@@ -45,8 +45,8 @@ impl ReliefScratch {
 }
 
 /// Relieves the faces on both sides of `edge`, which has just torn, as far as they are reached over film that is
-/// whole: at the distance d of a face's centroid from the edge, by the share c exp(-d / l) of the contraction that every
-/// face has gained, with c the [`relief`](TearingSettings::relief) and l the
+/// whole: at the distance d of a face's centroid from the edge, by the share c exp(-d / l) of the contraction that
+/// every face has gained, with c the [`relief`](TearingSettings::relief) and l the
 /// [`relief_reach`](TearingSettings::relief_reach) in grains. A face keeps the largest relief that it got.
 pub(super) fn relieve_beside(
     mesh: &FilmMesh,
@@ -78,7 +78,8 @@ pub(super) fn relieve_beside(
         let position = centroid.dot(along);
         let distance = length_of(centroid - position * along);
         let is_first = next <= 2;
-        if !is_first && !(distance <= far && position > -aside && position < length + aside) {
+        let is_near = distance <= far && position > -aside && position < length + aside;
+        if !is_first && !is_near {
             continue;
         }
         if position >= -MARGIN * length && position <= (1.0 + MARGIN) * length {

@@ -12,8 +12,8 @@ use crate::{
 /// [`sigmoid`](super::sigmoid) of the edge's dihedral angle at rest. Border edges and torn edges exert none. `gain` is
 /// k; at its default of 1/3 a vertex of a flat film with six neighbours feels exactly T.
 ///
-/// By [`Rules::Grain`](crate::settings::Rules::Grain) it is six times the mean of the bending forces of the one-ring, as
-/// long as that is whole: then vertices with fewer neighbours, and those at open borders, feel no less.
+/// By [`Rules::Grain`](crate::settings::Rules::Grain) it is six times the mean of the bending forces of the one-ring,
+/// as long as that is whole: then vertices with fewer neighbours, and those at open borders, feel no less.
 ///
 /// ```
 /// use bevy_coating::{

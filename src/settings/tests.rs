@@ -161,8 +161,8 @@ fn refusals_of_a_file_name_file_place_setting_and_range() {
         ),
         (
             "(soot: (rate: 2.0))",
-            "barrel.coating.ron:1:2: there is no setting `soot`; known here: scale, adhesion, bending, tearing, deform, \
-             stripping, rust, dust, moisture",
+            "barrel.coating.ron:1:2: there is no setting `soot`; known here: scale, adhesion, bending, tearing, \
+             deform, stripping, rust, dust, moisture",
         ),
         ("(bending: (gain: 1.0, gain: 1.0))", "barrel.coating.ron:1:23: setting `bending.gain` is given twice"),
         ("(bending: (), bending: ())", "barrel.coating.ron:1:15: setting `bending` is given twice"),

@@ -91,11 +91,10 @@ pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
 }
 
 /// Runs a stage that edits the due films. `stage` returns whether it changed the film.
-fn edit(
-    mut films: Edited,
-    mut timings: ResMut<CoatingTimings>,
-    stage: impl Fn(&FilmPace, &FilmClock, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch) -> bool + Sync,
-) {
+fn edit<F>(mut films: Edited, mut timings: ResMut<CoatingTimings>, stage: F)
+where
+    F: Fn(&FilmPace, &FilmClock, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch) -> bool + Sync,
+{
     timings.measure(Stage::Fracture, || {
         films.par_iter_mut().for_each(|(pace, clock, mut mesh, mut forces, mut changes, mut scratch)| {
             if pace.due

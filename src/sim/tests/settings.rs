@@ -80,7 +80,8 @@ fn a_change_there_and_back_changes_no_bit() {
     film.forces.set_adhesion(crate::film::VertexId(5), 3.0);
     let before = film.digest();
     let mut all = settings.clone();
-    // By the grain, some edges do not decay; what decayed until then is rounded another way after a change there and back.
+    // By the grain, some edges do not decay; what decayed until then is rounded another way after a change there and
+    // back.
     for field in CoatingSettings::fields().filter(|field| !field.path.starts_with("scale.")) {
         let mut changed = settings.clone();
         field.set(&mut changed, other(field, &settings)).unwrap();
