@@ -85,6 +85,8 @@ pub struct Ledger {
     bends: Carriers,
     /// Angle at which the bend that each half-edge carries began, and its target when it was parked, in radians.
     angles: Vec<[f32; 2]>,
+    /// Share of what the settings say by which the target at each half-edge narrows. Empty while all are 1.
+    shares: Vec<f32>,
     /// Number of changes of which constraints there are and what they refer to.
     revision: u64,
 }
@@ -96,6 +98,7 @@ impl Ledger {
             lengths: Carriers::new(half_edges),
             bends: Carriers::new(half_edges),
             angles: vec![[0.0; 2]; half_edges],
+            shares: Vec::new(),
             revision: 0,
         }
     }
@@ -180,14 +183,28 @@ impl Ledger {
         self.angles[h.index()][0]
     }
 
+    /// Returns the share of what the settings say by which the target at `h` narrows.
+    pub fn share(&self, h: HalfEdgeId) -> f32 {
+        self.shares.get(h.index()).copied().unwrap_or(1.0)
+    }
+
+    /// Sets the share of what the settings say by which the target at `h` narrows.
+    pub fn set_share(&mut self, h: HalfEdgeId, share: f32) {
+        self.shares.resize(self.angles.len(), 1.0);
+        self.shares[h.index()] = share;
+    }
+
     /// Appends all that decides what becomes of the constraints.
     pub fn write_state(&self, to: &mut Words) {
         // The revision only tells the plain solver when to look.
-        let Self { lengths, bends, angles, revision: _ } = self;
+        let Self { lengths, bends, angles, shares, revision: _ } = self;
         for Carriers { lanes, count: _ } in [lengths, bends] {
             to.list(lanes.iter().copied());
         }
         to.floats(angles.as_flattened());
+        if !shares.is_empty() {
+            to.floats(shares);
+        }
     }
 
     /// Returns the target of the bend of `h` when it was parked, in radians.
@@ -203,13 +220,14 @@ mod tests {
 
     #[test]
     fn every_field_of_the_ledger_counts() {
-        let changes: [fn(&mut Ledger); 6] = [
+        let changes: [fn(&mut Ledger); 7] = [
             |ledger| ledger.add_length(HalfEdgeId(1)),
             |ledger| ledger.put_length(HalfEdgeId(1), 7),
             |ledger| ledger.put_bend(HalfEdgeId(1), 7),
             |ledger| ledger.angles[1][0] = 0.5,
             |ledger| ledger.park_bend(HalfEdgeId(1), 0.5),
             |ledger| ledger.angles[2][1] = 0.5,
+            |ledger| ledger.set_share(HalfEdgeId(1), 0.5),
         ];
         assert_each_counts(&Ledger::new(3), Ledger::write_state, &changes);
     }

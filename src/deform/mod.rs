@@ -13,6 +13,7 @@
 //! | which half-edge carries which constraint | `ledger` | VC 5, fig. 7 |
 //! | packs, instruction sets | `packed` | beyond the paper |
 //! | one constraint after the other | `plain` | VC 4.1 |
+//! | curls at free edges | `curl`, [`follow_free_edges`] | beyond the paper |
 //! | what hardly moves is left out | `sleep` | beyond the paper |
 //! | loose pieces keep their place | `rigid` | beyond the paper |
 //! | the constraints of a film | [`FilmConstraints`] | VC 5 |
@@ -21,6 +22,8 @@
 
 mod bend;
 mod constraints;
+mod curl;
+mod free_edges;
 mod half_space;
 mod ledger;
 mod length;
@@ -37,6 +40,7 @@ pub(crate) mod tests;
 
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;
+pub use free_edges::follow_free_edges;
 pub use length::LengthConstraint;
 pub use pace::{SolvePace, SolverQuality, sweeps_and_momentum, sweeps_of_step};
 pub use packed::level::SimdLevel;

@@ -6,6 +6,12 @@ use bevy::reflect::prelude::ReflectDefault;
 /// Least number of sweeps an age that are really done, if as many are asked for: below, flakes would move in jerks.
 const LEAST_SWEEPS: f32 = 1000.0;
 
+/// Number of times that a fine film is swept as often as one whose mean edge is its grain.
+const MOST_SWEEPS: f32 = 2.0;
+
+/// Largest momentum.
+const MOST_MOMENTUM: f32 = 0.999;
+
 /// Quality of the solver: how many of the sweeps that are asked for are really done, and how.
 ///
 /// All qualities give much the same look. A film keeps its cracks whatever the quality, as fracture is judged at rest.
@@ -89,6 +95,36 @@ impl SolvePace {
         let (sweeps_per_age, momentum) = sweeps_and_momentum(sweeps_per_age, quality);
         let sweeps = sweeps_of_step(sweeps_per_age, step, steps_per_age);
         Self { dt: 1.0 / steps_per_age.max(1) as f32, sweeps, momentum, tick, quality }
+    }
+}
+
+impl SolvePace {
+    /// Returns the pace of step number `step` (1 is the first) of a film that is measured by its grain, which is
+    /// `in_edges` times as long as its mean edge.
+    ///
+    /// The progress of wide curls goes with the number of sweeps times the fourth power of the edge, so that many
+    /// sweeps are asked for: `sweeps_per_age` on a film whose mean edge is the grain, 16 times as many where it is half
+    /// of it. Momentum pays for most of them: no film is swept more than twice as often as one whose mean edge is the
+    /// grain.
+    pub fn of_grain_step(
+        sweeps_per_age: f32,
+        in_edges: f32,
+        quality: SolverQuality,
+        (step, steps_per_age): (u64, u32),
+        tick: bool,
+    ) -> Self {
+        let asked = sweeps_per_age * in_edges * in_edges * in_edges * in_edges;
+        let (done, _) = sweeps_and_momentum(sweeps_per_age, quality);
+        let done = match quality {
+            SolverQuality::Reference => asked,
+            _ => done * in_edges.clamp(1.0, MOST_SWEEPS),
+        };
+        // Beyond this momentum what moves rings on.
+        let least = asked * (1.0 - MOST_MOMENTUM);
+        let sweeps = done.max(least).min(asked);
+        let momentum = if asked > 0.0 { 1.0 - sweeps / asked } else { 0.0 };
+        let dt = 1.0 / steps_per_age.max(1) as f32;
+        Self { dt, sweeps: sweeps_of_step(sweeps, step, steps_per_age), momentum, tick, quality }
     }
 }
 

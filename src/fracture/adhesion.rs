@@ -5,12 +5,14 @@ use noise::{NoiseFn, Perlin};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::settings::AdhesionSettings;
+use crate::{film::Grain, settings::AdhesionSettings};
 
 /// Amplitude of each further octave, relative to the octave before.
 const GAIN: f64 = 0.5;
 /// Frequency of each further octave, relative to the octave before.
 const LACUNARITY: f64 = 2.0;
+/// Least number of cycles over a prop: one much smaller than the noise would be all strong or all weak.
+const LEAST_CYCLES: f32 = 2.0;
 /// Standard deviation of one octave of `noise::Perlin` at arbitrary places, measured over 2,000 seeds with 500 places
 /// each (a test checks it over 400 seeds). It is a constant so that films are not normalised one by one: a small film
 /// may well be weak or strong everywhere.
@@ -20,9 +22,10 @@ const PERLIN_DEVIATION: f64 = 0.3103;
 ///
 /// The values are Perlin noise with the mean and standard deviation of `settings`; negative values become 0. The noise
 /// runs through [`frequency`](AdhesionSettings::frequency) cycles over the longest side of the bounding box of
-/// `positions`, so the unit of length does not matter. `seed` rotates and shifts the noise at random, so that no
-/// lattice plane of the noise (where Perlin noise is 0) lies in a flat film. If all positions coincide, all values are
-/// equal.
+/// `positions`, so the unit of length does not matter. On a film with a `grain` its wavelength is
+/// [`wavelength`](AdhesionSettings::wavelength) grains, but there are at least two cycles. `seed` rotates and shifts
+/// the noise at random, so that no lattice plane of the noise (where Perlin noise is 0) lies in a flat film. If all
+/// positions coincide, all values are equal.
 ///
 /// ```
 /// use bevy_coating::{fracture::adhesion_field, settings::AdhesionSettings};
@@ -30,19 +33,23 @@ const PERLIN_DEVIATION: f64 = 0.3103;
 ///
 /// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
 /// let settings = AdhesionSettings::default();
-/// let field = adhesion_field(&corners, &settings, 7);
+/// let field = adhesion_field(&corners, &settings, None, 7);
 /// assert_eq!(field.len(), corners.len());
 /// assert!(field.iter().all(|&adhesion| adhesion >= 0.0));
-/// assert_eq!(field, adhesion_field(&corners, &settings, 7), "the same seed gives the same noise");
+/// assert_eq!(field, adhesion_field(&corners, &settings, None, 7), "the same seed gives the same noise");
 ///
 /// let even = AdhesionSettings { mean: 2.0, deviation: 0.0, ..settings };
-/// assert_eq!(adhesion_field(&corners, &even, 7), [2.0; 3]);
+/// assert_eq!(adhesion_field(&corners, &even, None, 7), [2.0; 3]);
 /// ```
-pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, seed: u64) -> Vec<f32> {
+pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, grain: Option<Grain>, seed: u64) -> Vec<f32> {
     let (min, max) =
         positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
     let longest = (max - min).max_element();
-    let scale = if longest > 0.0 { settings.frequency / longest } else { 0.0 };
+    let cycles = match grain {
+        Some(grain) => (longest / (settings.wavelength * grain.length)).max(LEAST_CYCLES),
+        None => settings.frequency,
+    };
+    let scale = if longest > 0.0 { cycles / longest } else { 0.0 };
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let perlin = Perlin::new(rng.random());
     let rotation = random_rotation(&mut rng);
@@ -112,7 +119,7 @@ mod tests {
         for octaves in [1, 2, 4] {
             let settings = AdhesionSettings { mean: 10.0, octaves, ..AdhesionSettings::default() };
             let (mean, deviation) =
-                moments((0..400).flat_map(|seed| adhesion_field(&positions, &settings, seed)).map(f64::from));
+                moments((0..400).flat_map(|seed| adhesion_field(&positions, &settings, None, seed)).map(f64::from));
             assert!((mean - 10.0).abs() < 0.02, "{mean} with {octaves} octaves");
             assert!((deviation - 0.70).abs() < 0.03, "{deviation} with {octaves} octaves");
         }
@@ -122,24 +129,24 @@ mod tests {
     fn field_is_clamped_at_zero_and_follows_the_seed() {
         let positions = flat(12);
         let settings = AdhesionSettings { mean: 0.2, deviation: 1.0, ..AdhesionSettings::default() };
-        let field = adhesion_field(&positions, &settings, 1);
+        let field = adhesion_field(&positions, &settings, None, 1);
         assert!(field.iter().all(|&a| a >= 0.0));
         assert!(field.contains(&0.0) && field.iter().any(|&a| a > 0.5));
-        assert_eq!(field, adhesion_field(&positions, &settings, 1));
-        assert_ne!(field, adhesion_field(&positions, &settings, 2));
+        assert_eq!(field, adhesion_field(&positions, &settings, None, 1));
+        assert_ne!(field, adhesion_field(&positions, &settings, None, 2));
     }
 
     #[test]
     fn field_does_not_depend_on_the_size_of_the_prop() {
         let settings = AdhesionSettings::default();
-        let small = adhesion_field(&flat(9), &settings, 3);
-        let large = adhesion_field(&flat(9).iter().map(|p| p * 1024.0).collect::<Vec<_>>(), &settings, 3);
+        let small = adhesion_field(&flat(9), &settings, None, 3);
+        let large = adhesion_field(&flat(9).iter().map(|p| p * 1024.0).collect::<Vec<_>>(), &settings, None, 3);
         assert!(small.iter().zip(&large).all(|(a, b)| (a - b).abs() < 1e-4));
     }
 
     #[test]
     fn a_film_without_extent_is_uniform() {
-        let field = adhesion_field(&[Vec3::ONE; 3], &AdhesionSettings::default(), 0);
+        let field = adhesion_field(&[Vec3::ONE; 3], &AdhesionSettings::default(), None, 0);
         assert!(field.iter().all(|a| a.is_finite() && *a == field[0]));
     }
 }

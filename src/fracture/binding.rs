@@ -18,12 +18,14 @@ pub(super) struct Binding {
     torn_faces: u8,
     /// Whether the force was set by hand, so that it does not follow settings.
     by_hand: bool,
+    /// Whether torn edges beside it make it decay.
+    decays: bool,
 }
 
 impl Binding {
     /// Creates a binding that does not decay yet.
     pub fn new(force: f32) -> Self {
-        Self { drawn: force, share: 1.0, since: 0.0, torn_faces: 0, by_hand: false }
+        Self { drawn: force, share: 1.0, since: 0.0, torn_faces: 0, by_hand: false, decays: true }
     }
 
     /// Returns the force at the film's decay `decay`.
@@ -60,6 +62,16 @@ impl Binding {
         }
     }
 
+    /// Returns whether torn edges beside this make it decay.
+    pub fn decays(&self) -> bool {
+        self.decays
+    }
+
+    /// Sets whether torn edges beside this make it decay from now on.
+    pub fn set_decays(&mut self, decays: bool) {
+        self.decays = decays;
+    }
+
     /// Sets how many of the edge's faces have a torn edge from the film's decay `decay` on. Set 0 for an edge that has
     /// torn itself: it keeps the binding that it had.
     pub fn set_torn_faces(&mut self, faces: u8, decay: f64) {
@@ -71,7 +83,7 @@ impl Binding {
 
     /// Returns all numbers of this, for the digest.
     pub fn numbers(&self) -> [u32; 4] {
-        let flags = u32::from(self.torn_faces) | u32::from(self.by_hand) << 8;
+        let flags = u32::from(self.torn_faces) | u32::from(self.by_hand) << 8 | u32::from(!self.decays) << 9;
         [self.drawn.to_bits(), self.share.to_bits(), self.since.to_bits(), flags]
     }
 }

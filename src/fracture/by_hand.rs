@@ -41,8 +41,8 @@ pub fn tear_by_hand(
         let_go(topology, forces, v, age, changes);
     }
     let edge = topology.edge(h);
-    tear_edge(mesh, forces, &settings.tearing, edge, gravity, changes, &mut scratch.pieces);
-    strip(mesh, forces, &settings.stripping, changes, scratch);
+    tear_edge(mesh, forces, &settings.tearing, edge, gravity, changes, &mut scratch.pieces, &mut scratch.relief);
+    strip(mesh, forces, &settings.stripping, age, changes, scratch);
     true
 }
 
@@ -71,7 +71,16 @@ pub fn strip_by_hand(
     for h in f.half_edges() {
         if mesh.topology.bound_twin(h).is_some() {
             let edge = mesh.topology.edge(h);
-            tear_edge(mesh, forces, &settings.tearing, edge, gravity, changes, &mut scratch.pieces);
+            tear_edge(
+                mesh,
+                forces,
+                &settings.tearing,
+                edge,
+                gravity,
+                changes,
+                &mut scratch.pieces,
+                &mut scratch.relief,
+            );
         }
     }
     if !mesh.topology.is_cut_out(f) {
@@ -83,7 +92,7 @@ pub fn strip_by_hand(
             forces.tips[v.index()] = Vec3::ZERO;
         }
     }
-    strip(mesh, forces, &settings.stripping, changes, scratch);
+    strip(mesh, forces, &settings.stripping, age, changes, scratch);
     forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);
     true
 }

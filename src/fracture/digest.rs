@@ -25,6 +25,7 @@ impl FilmForces {
             binding_decay,
             bend_weights: _,
             gamma,
+            loose_since,
             predictions: _,
         } = self;
         to.floats(separated_age);
@@ -41,6 +42,9 @@ impl FilmForces {
         to.list(bindings.iter().flat_map(|binding| binding.numbers()));
         to.double(*binding_decay);
         to.float(*gamma);
+        if !loose_since.is_empty() {
+            to.floats(loose_since);
+        }
     }
 }
 
@@ -50,7 +54,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        film::{FilmMesh, HalfEdgeId, tests::grid, words::assert_each_counts},
+        film::{FilmMesh, Geometry, Grain, HalfEdgeId, tests::grid, words::assert_each_counts},
         fracture::drawn::{Contraction, Drawn},
         settings::CoatingSettings,
     };
@@ -60,7 +64,7 @@ mod tests {
         let (positions, triangles) = grid(2, 2);
         let mesh = FilmMesh::new(positions, &triangles).unwrap();
         let forces = FilmForces::new(&mesh, &CoatingSettings::default(), 3);
-        let changes: [fn(&mut FilmForces); 21] = [
+        let changes: [fn(&mut FilmForces); 23] = [
             |forces| forces.separated_age[1] = 0.5,
             |forces| forces.tips[1] = Vec3::X,
             |forces| forces.torn_edges = 1,
@@ -70,12 +74,12 @@ mod tests {
             |forces| {
                 let mut settings = CoatingSettings::default();
                 settings.adhesion.frequency = 2.0;
-                forces.drawn = Drawn::new(3, &settings);
+                forces.drawn = Drawn::new(3, &Geometry::default(), &settings);
             },
             |forces| {
                 let mut settings = CoatingSettings::default();
                 settings.tearing.weak_factor = 0.5;
-                forces.drawn = Drawn::new(3, &settings);
+                forces.drawn = Drawn::new(3, &Geometry::default(), &settings);
             },
             |forces| forces.adhesion_drawn[0] = 0.5,
             |forces| forces.adhesion_by_hand[0] = true,
@@ -90,6 +94,8 @@ mod tests {
             |forces| forces.bindings[0].set_force(HalfEdgeId(0).index() as f32, 0.0),
             |forces| forces.binding_decay = 0.5,
             |forces| forces.gamma = 0.5,
+            |forces| forces.drawn.grain = Some(Grain { length: 0.5 }),
+            |forces| forces.loose_since = vec![0.5],
         ];
         assert_each_counts(&forces, FilmForces::write_state, &changes);
     }

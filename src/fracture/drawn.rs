@@ -1,6 +1,9 @@
 //! Keeps what the initial forces of a film were drawn with, and the contraction of a face apart from it.
 
-use crate::settings::CoatingSettings;
+use crate::{
+    film::{Geometry, Grain},
+    settings::CoatingSettings,
+};
 
 /// Seed and settings that the initial forces of a film were drawn with.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,30 +16,35 @@ pub(super) struct Drawn {
     pub binding: [u32; 3],
     /// Initial contraction of every face.
     pub contraction: f32,
+    /// Grain of the film, if it has one.
+    pub grain: Option<Grain>,
 }
 
 impl Drawn {
     /// Returns what is drawn with `seed` and `settings`.
-    pub fn new(seed: u64, settings: &CoatingSettings) -> Self {
-        let CoatingSettings { adhesion, tearing, .. } = settings;
+    pub fn new(seed: u64, geometry: &Geometry, settings: &CoatingSettings) -> Self {
+        let CoatingSettings { adhesion, tearing, scale, .. } = settings;
+        let grain = scale.grain_of(geometry);
         Self {
             seed,
             adhesion: [
                 adhesion.mean.to_bits(),
                 adhesion.deviation.to_bits(),
                 adhesion.octaves,
-                adhesion.frequency.to_bits(),
+                if grain.is_some() { adhesion.wavelength } else { adhesion.frequency }.to_bits(),
             ],
             binding: [tearing.binding, tearing.weak_probability, tearing.weak_factor].map(f32::to_bits),
             contraction: tearing.contraction,
+            grain,
         }
     }
 
     /// Returns all numbers of this, for the digest.
-    pub fn numbers(&self) -> [u32; 10] {
+    pub fn numbers(&self) -> impl Iterator<Item = u32> {
         let [a, b, c, d] = self.adhesion;
         let [e, f, g] = self.binding;
-        [self.seed as u32, (self.seed >> 32) as u32, a, b, c, d, e, f, g, self.contraction.to_bits()]
+        let numbers = [self.seed as u32, (self.seed >> 32) as u32, a, b, c, d, e, f, g, self.contraction.to_bits()];
+        numbers.into_iter().chain(self.grain.map(|grain| grain.length.to_bits()))
     }
 }
 

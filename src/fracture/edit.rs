@@ -43,8 +43,9 @@ impl FilmForces {
 
     /// Sets how fast the binding of the edge of `h` decays, by the torn edges that its faces have now.
     pub(super) fn update_decay(&mut self, topology: &Topology, h: HalfEdgeId) {
-        let (edge, faces) = (topology.edge(h), topology.torn_faces(h));
+        let edge = topology.edge(h);
         let binding = &mut self.bindings[edge.index()];
+        let faces = if binding.decays() { topology.torn_faces(h) } else { 0 };
         if binding.torn_faces() != faces {
             binding.set_torn_faces(faces, self.binding_decay);
             self.predictions.tears.make_due(edge.0);

@@ -12,7 +12,7 @@ use super::{
     sigmoid::sigmoid,
 };
 use crate::{
-    film::{FaceId, FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId},
+    film::{FaceId, FilmMesh, Grain, HalfEdgeId, LoosePieces, Topology, VertexId},
     settings::CoatingSettings,
 };
 
@@ -78,6 +78,8 @@ pub struct FilmForces {
     pub(super) bend_weights: Vec<f32>,
     /// Gamma that `bend_weights` was computed with.
     pub(super) gamma: f32,
+    /// Age at which each face came loose, with the piece that it is in; infinite before. Empty by the paper's rules.
+    pub(super) loose_since: Vec<f32>,
     /// Predicted events and connected pieces.
     pub(super) predictions: Predictions,
 }
@@ -104,7 +106,7 @@ impl FilmForces {
         let mut forces = Self {
             separated_age: vec![f32::INFINITY; vertices],
             tips: vec![Vec3::ZERO; vertices],
-            drawn: Drawn::new(seed, settings),
+            drawn: Drawn::new(seed, &mesh.geometry, settings),
             adhesion_drawn: vec![0.0; vertices],
             adhesion_by_hand: vec![false; vertices],
             adhesion_lost_wet: vec![0.0; vertices],
@@ -114,7 +116,7 @@ impl FilmForces {
             ..Self::default()
         };
         forces.draw_adhesion(mesh, &settings.adhesion);
-        forces.draw_bindings(topology, &settings.tearing);
+        forces.draw_bindings(mesh, &settings.tearing);
         forces.set_gamma(mesh, settings.bending.gamma);
         forces.find_pieces(topology);
         forces
@@ -152,6 +154,11 @@ impl FilmForces {
             let inner = mesh.topology.rest_twin(h).is_some();
             if inner { sigmoid(mesh.geometry.rest_dihedrals[h.index()], gamma) } else { 0.0 }
         }));
+    }
+
+    /// Returns the grain by which the film's fracture is measured, or `None` by the paper's rules.
+    pub fn grain(&self) -> Option<Grain> {
+        self.drawn.grain
     }
 
     /// Returns the seed that the film's initial forces were drawn with.

@@ -1,6 +1,7 @@
 //! Holds the buffers of tearing and stripping.
 
-use crate::film::{HalfEdgeId, PieceScratch};
+use super::relief::ReliefScratch;
+use crate::film::{FaceId, HalfEdgeId, PieceScratch, VertexId};
 
 /// Buffers of [`tear`](super::tear) and [`strip`](super::strip).
 ///
@@ -16,6 +17,12 @@ pub struct FractureScratch {
     pub(super) candidates: Vec<Candidate>,
     /// Buffers of the search for connected pieces.
     pub(super) pieces: PieceScratch,
+    /// A face of each piece that tore or separated in this step, some of them several times.
+    pub(super) touched: Vec<FaceId>,
+    /// Attached vertices of a piece.
+    pub(super) attached: Vec<VertexId>,
+    /// Buffers of the search for faces beside a tear.
+    pub(super) relief: ReliefScratch,
 }
 
 /// An edge that would tear in the state at the start of the step.

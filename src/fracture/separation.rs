@@ -12,6 +12,9 @@ use crate::{
 /// [`sigmoid`](super::sigmoid) of the edge's dihedral angle at rest. Border edges and torn edges exert none. `gain` is
 /// k; at its default of 1/3 a vertex of a flat film with six neighbours feels exactly T.
 ///
+/// By [`Rules::Grain`](crate::settings::Rules::Grain) it is six times the mean of the bending forces of the one-ring,
+/// as long as that is whole: then vertices with fewer neighbours, and those at open borders, feel no less.
+///
 /// ```
 /// use bevy_coating::{
 ///     film::{FilmMesh, VertexId},
@@ -134,6 +137,9 @@ pub(super) fn let_go(topology: &Topology, forces: &mut FilmForces, v: VertexId, 
     changes.separated.push(v);
 }
 
+/// Number of faces at a vertex of a regular film.
+const REGULAR: f32 = 6.0;
+
 /// Bending forces of a one-ring on its vertex.
 struct OneRing {
     /// Sum of the bending forces.
@@ -147,9 +153,10 @@ struct OneRing {
 impl OneRing {
     #[inline]
     fn new(mesh: &FilmMesh, forces: &FilmForces, v: VertexId, gain: f32) -> Self {
-        let (mut force, mut lift, mut edges) = (0.0, 0.0, 0.0);
+        let (mut force, mut lift, mut edges, mut inner) = (0.0, 0.0, 0.0, 0.0);
         for h in mesh.topology.fan(v) {
             let opposite = h.next();
+            inner += if mesh.topology.rest_twin(opposite).is_some() { 1.0 } else { 0.0 };
             if !mesh.topology.is_torn(opposite) {
                 let weight = forces.bend_weights[opposite.index()];
                 force += forces.contraction(h.face()) * weight;
@@ -157,6 +164,8 @@ impl OneRing {
                 edges += 1.0;
             }
         }
+        // While the vertex is attached no face of its ring is gone, so the number of edges stays.
+        let gain = if forces.grain().is_some() && inner > 0.0 { gain * (REGULAR / inner) } else { gain };
         Self { force: gain * force, lift: gain * lift, edges }
     }
 

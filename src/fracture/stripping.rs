@@ -2,9 +2,9 @@
 
 use bevy_math::Vec3;
 
-use super::{forces::FilmForces, scratch::FractureScratch};
+use super::{forces::FilmForces, hold::let_go_of_what_hangs, scratch::FractureScratch};
 use crate::{
-    film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh},
+    film::{Debris, FaceFate, FaceId, FilmChanges, FilmMesh, LoosePiece},
     settings::StrippingSettings,
 };
 
@@ -14,7 +14,11 @@ use crate::{
 ///    all its inner edges are torn and all its vertices have separated.
 /// 2. Every loose piece (connected faces without an attached vertex) of up to
 ///    [`fall_faces`](StrippingSettings::fall_faces) faces falls, as real paint would; the paper leaves it in the air.
-///    Larger loose pieces stay and are listed in [`FilmForces::loose`], so that bending does not make them drift.
+///    Larger loose pieces stay and are listed in [`FilmForces::loose`], so that bending does not make them drift. By
+///    [`Rules::Grain`](crate::settings::Rules::Grain) every loose piece falls, [`hold`](StrippingSettings::hold) after
+///    it came loose.
+///
+/// `age` is that of the film at the end of this step.
 ///
 /// The removed faces are appended to [`FilmChanges::removed`], and one entry for each stripped face or fallen piece to
 /// [`FilmChanges::debris`]. `changes` must hold the tears and separations of this step: only faces at them, and pieces
@@ -36,7 +40,7 @@ use crate::{
 /// forces.touch_all();
 ///
 /// let (mut changes, mut scratch) = (FilmChanges::default(), FractureScratch::default());
-/// strip(&mut mesh, &mut forces, &settings.stripping, &mut changes, &mut scratch);
+/// strip(&mut mesh, &mut forces, &settings.stripping, 0.1, &mut changes, &mut scratch);
 /// assert_eq!((changes.debris.len(), changes.debris[0].faces), (1, 2), "the whole film falls as one piece");
 /// # Ok::<(), bevy_coating::film::TopologyError>(())
 /// ```
@@ -44,6 +48,7 @@ pub fn strip(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
     settings: &StrippingSettings,
+    age: f32,
     changes: &mut FilmChanges,
     scratch: &mut FractureScratch,
 ) {
@@ -61,10 +66,38 @@ pub fn strip(
             strip_if_free(mesh, forces, h.face(), changes);
         }
     }
+    if let Some(grain) = forces.grain() {
+        let_go_of_what_hangs(mesh, forces, settings, grain, age, changes, scratch);
+    }
     forces.predictions.pieces.renew(&mesh.topology, &mut forces.loose, &mut scratch.pieces);
-    if forces.loose.smallest().is_some_and(|faces| faces <= settings.fall_faces) {
-        drop_pieces(mesh, forces, settings.fall_faces, changes);
+    let fell = if forces.grain().is_some() {
+        forces.note_loose(mesh.topology.face_count(), age);
+        let since = std::mem::take(&mut forces.loose_since);
+        let held = |piece: &LoosePiece| piece.faces.first().is_some_and(|f| age - since[f.index()] < settings.hold);
+        let fell = drop_pieces(mesh, forces, |piece| !held(piece), changes);
+        forces.loose_since = since;
+        fell
+    } else if forces.loose.smallest().is_some_and(|faces| faces <= settings.fall_faces) {
+        drop_pieces(mesh, forces, |piece| piece.faces.len() as u32 <= settings.fall_faces, changes)
+    } else {
+        false
+    };
+    if fell {
         forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);
+    }
+}
+
+impl FilmForces {
+    /// Notes `age` for the loose pieces that came loose in this step, on a film with `count` faces.
+    fn note_loose(&mut self, count: usize, age: f32) {
+        self.loose_since.resize(count, f32::INFINITY);
+        for piece in self.loose.iter() {
+            // A piece that has parted since it came loose consists of faces that came loose with it.
+            let is_new = piece.faces.first().is_some_and(|f| self.loose_since[f.index()] == f32::INFINITY);
+            if is_new {
+                piece.faces.iter().for_each(|f| self.loose_since[f.index()] = age);
+            }
+        }
     }
 }
 
@@ -79,10 +112,15 @@ fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &
     }
 }
 
-/// Drops every loose piece of up to `limit` faces.
-fn drop_pieces(mesh: &mut FilmMesh, forces: &mut FilmForces, limit: u32, changes: &mut FilmChanges) {
+/// Drops every loose piece that `falls`. Returns whether any did.
+fn drop_pieces(
+    mesh: &mut FilmMesh,
+    forces: &mut FilmForces,
+    falls: impl Fn(&LoosePiece) -> bool,
+    changes: &mut FilmChanges,
+) -> bool {
     let first = changes.removed.len();
-    for piece in forces.loose.iter().filter(|piece| piece.faces.len() as u32 <= limit) {
+    for piece in forces.loose.iter().filter(falls) {
         changes.debris.push(debris(mesh, piece.faces));
         changes.removed.extend_from_slice(piece.faces);
         mesh.topology.drop_piece(piece.faces);
@@ -93,6 +131,7 @@ fn drop_pieces(mesh: &mut FilmMesh, forces: &mut FilmForces, limit: u32, changes
     for h in changes.removed[first..].iter().flat_map(|f| f.half_edges()) {
         forces.update_decay(&mesh.topology, h);
     }
+    changes.removed.len() > first
 }
 
 /// Describes the piece that consists of `faces`, as it is before they are removed.

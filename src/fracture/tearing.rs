@@ -1,10 +1,11 @@
 //! Tears edges where contraction exceeds binding, so that cracks run nearly straight (VC 5.2).
 
-use bevy_math::Vec3;
+use bevy_math::{Vec3, ops};
 
 use super::{
     balance::{Balance, direction},
     forces::FilmForces,
+    relief::{ReliefScratch, relieve_beside},
     scratch::{Candidate, FractureScratch},
 };
 use crate::{
@@ -123,7 +124,7 @@ fn tear_in_order(
     changes: &mut FilmChanges,
     scratch: &mut FractureScratch,
 ) {
-    let FractureScratch { candidates, pieces } = scratch;
+    let FractureScratch { candidates, pieces, relief, .. } = scratch;
     candidates.sort_unstable_by(|a, b| {
         let aligned = |c: &Candidate| c.alignment.unwrap_or(f32::NEG_INFINITY);
         aligned(b).total_cmp(&aligned(a)).then(b.excess.total_cmp(&a.excess)).then(a.edge.cmp(&b.edge))
@@ -131,7 +132,7 @@ fn tear_in_order(
     for &Candidate { edge, .. } in candidates.iter() {
         let gives_way = Balance::new(mesh, forces, settings, edge).is_some_and(|b| b.excess().is_some());
         if gives_way {
-            tear_edge(mesh, forces, settings, edge, gravity, changes, pieces);
+            tear_edge(mesh, forces, settings, edge, gravity, changes, pieces, relief);
         } else {
             forces.predictions.tears.make_due(edge.0);
         }
@@ -147,21 +148,35 @@ pub(super) fn tear_edge(
     gravity: Vec3,
     changes: &mut FilmChanges,
     scratch: &mut PieceScratch,
+    relief: &mut ReliefScratch,
 ) {
     let (a, b) = (mesh.topology.origin(edge), mesh.topology.target(edge));
     let Some(twin) = mesh.topology.bound_twin(edge) else { return };
+    let cracks = [a, b].map(|end| forces.tips[end.index()]);
     let Some(ends) = mesh.tear(edge, gravity) else { return };
+    if let Some(grain) = forces.grain() {
+        relieve_beside(mesh, forces, settings, grain, edge, relief);
+    }
     for h in [edge, twin] {
-        forces.relieve(h.face(), settings.contraction_kept);
+        if forces.grain().is_none() {
+            forces.relieve(h.face(), settings.contraction_kept);
+        }
         for h in h.face().half_edges() {
             forces.update_decay(&mesh.topology, h);
         }
     }
-    for (end, other) in ends.into_iter().zip([b, a]) {
+    for (end, (other, crack)) in ends.into_iter().zip([(b, cracks[1]), (a, cracks[0])]) {
         match end {
             // The crack ends here now and points away from the other end.
             TearEnd::Opened(tip) => {
-                forces.tips[tip.index()] = direction(mesh, other, tip);
+                let ahead = direction(mesh, other, tip);
+                forces.tips[tip.index()] = match forces.grain() {
+                    Some(grain) => {
+                        let run = mesh.geometry.rest_lengths[edge.index()];
+                        remember(crack, ahead, run / (settings.memory * grain.length))
+                    }
+                    None => ahead,
+                };
                 forces.make_edges_due(&mesh.topology, tip);
             }
             TearEnd::Split { kept, duplicate } => {
@@ -176,4 +191,13 @@ pub(super) fn tear_edge(
     forces.torn_edges += 1;
     changes.torn.push(edge);
     changes.torn_ends.push(ends);
+}
+
+/// Returns the direction of a crack that came along `crack` (zero for one that begins) and ran on along `ahead` by
+/// `run`, in lengths over which it forgets by the factor e. So a crack keeps its direction over the same distance
+/// whatever the length of its edges.
+pub(super) fn remember(crack: Vec3, ahead: Vec3, run: f32) -> Vec3 {
+    let kept = ops::exp(-run);
+    let direction = (crack * kept + ahead * (1.0 - kept)).normalize_or_zero();
+    if crack == Vec3::ZERO || direction == Vec3::ZERO { ahead } else { direction }
 }

@@ -42,7 +42,7 @@ impl FilmForces {
             }
         }
         for h in topology.all_edges() {
-            let decaying = topology.torn_faces(h);
+            let decaying = if self.bindings[h.index()].decays() { topology.torn_faces(h) } else { 0 };
             if self.bindings[h.index()].torn_faces() != decaying {
                 return Err(InvariantError::Decay(h));
             }

@@ -56,6 +56,16 @@ pub enum SettingsErrorKind {
         /// Reason in words, with the text that was found.
         cause: String,
     },
+    /// A setting has names, and the value is none of them.
+    #[error("setting `{field}` must be one of {}: {cause}", known.join(", "))]
+    UnknownName {
+        /// Path of the setting, like `scale.rules`.
+        field: &'static str,
+        /// Names that it may have.
+        known: Vec<&'static str>,
+        /// Reason in words, with the text that was found.
+        cause: String,
+    },
     /// There is no such setting or stage.
     #[error("there is no setting `{path}`; known here: {}", known.join(", "))]
     UnknownField {

@@ -23,6 +23,8 @@ pub struct Field {
     pub doc: &'static str,
     /// Range of the values that are allowed.
     pub range: Range,
+    /// Names of the values, by their numbers from 0, if the setting has names; empty if it is a number.
+    pub names: &'static [&'static str],
     pub(super) get: fn(&CoatingSettings) -> f32,
     pub(super) set: fn(&mut CoatingSettings, f32),
 }
@@ -53,10 +55,34 @@ impl Field {
     }
 
     pub(super) fn parse(&self, text: &str) -> Result<f32, SettingsErrorKind> {
-        text.trim().parse().map_err(|_| self.malformed(format!("found `{text}`")))
+        let text = text.trim();
+        if !self.names.is_empty() {
+            return self.named(text);
+        }
+        text.parse().map_err(|_| self.malformed(format!("found `{text}`")))
+    }
+
+    /// Returns the number of the value that has a name, in any case.
+    pub(super) fn named(&self, name: &str) -> Result<f32, SettingsErrorKind> {
+        let number = self.names.iter().position(|known| known.eq_ignore_ascii_case(name));
+        number.map(|number| number as f32).ok_or_else(|| self.malformed(format!("found `{name}`")))
+    }
+
+    /// Returns the text of the setting's value: a number, or the name that it has.
+    pub fn text(&self, settings: &CoatingSettings) -> String {
+        let value = self.get(settings);
+        self.names.get(value as usize).map_or_else(|| value.to_string(), |name| (*name).to_owned())
+    }
+
+    /// Returns the values that are allowed, in words.
+    pub fn allowed(&self) -> String {
+        if self.names.is_empty() { self.range.to_string() } else { self.names.join(", ") }
     }
 
     pub(super) fn malformed(&self, cause: String) -> SettingsErrorKind {
-        SettingsErrorKind::Malformed { field: self.path, range: self.range, cause }
+        match self.names {
+            [] => SettingsErrorKind::Malformed { field: self.path, range: self.range, cause },
+            known => SettingsErrorKind::UnknownName { field: self.path, known: known.to_vec(), cause },
+        }
     }
 }

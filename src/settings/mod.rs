@@ -24,19 +24,40 @@ mod presets;
 mod range;
 mod read;
 mod rows;
+mod rules;
 mod stages;
 mod table;
 #[cfg(test)]
 mod tests;
 
+use crate::film::{Geometry, Grain};
+
 pub use error::{SettingsError, SettingsErrorKind, TextPosition};
 pub use field::Field;
 pub use presets::Preset;
 pub use range::Range;
+pub use rules::Rules;
 pub use stages::{
     AdhesionSettings, BendingSettings, CoatingSettings, DeformSettings, DustSettings, MoistureSettings, RustSettings,
-    StrippingSettings, TearingSettings,
+    ScaleSettings, StrippingSettings, TearingSettings,
 };
+
+impl ScaleSettings {
+    /// Returns the grain of a film; `None` by the paper's rules, which have none.
+    ///
+    /// ```
+    /// use bevy_coating::{film::Geometry, settings::{CoatingSettings, Rules}};
+    ///
+    /// let mut scale = CoatingSettings::default().scale;
+    /// scale.rules = Rules::Grain;
+    /// assert_eq!(scale.grain_of(&Geometry::default()).map(|grain| grain.length), Some(0.028));
+    /// scale.rules = Rules::Paper;
+    /// assert_eq!(scale.grain_of(&Geometry::default()), None);
+    /// ```
+    pub fn grain_of(&self, geometry: &Geometry) -> Option<Grain> {
+        (self.rules == Rules::Grain).then(|| Grain::of_film(geometry, self.grain))
+    }
+}
 
 impl CoatingSettings {
     /// Iterates over all settings, in the order of the structs.

@@ -7,7 +7,7 @@
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor};
 
 use super::{
     error::{SettingsError, SettingsErrorKind, TextPosition},
@@ -173,13 +173,64 @@ impl<'de> DeserializeSeed<'de> for FieldSeed<'_> {
         let Self { field, settings, fault } = self;
         // A binary format must read whole numbers as the type they were written from. Text reads them like all
         // others, so that 2.5 and -1 are reported as out of range rather than as bad syntax.
-        let value = if field.range.whole && !deserializer.is_human_readable() {
+        let value = if !field.names.is_empty() {
+            return deserializer
+                .deserialize_enum(field.path, field.names, NamedVisitor { field, settings })
+                .map_err(|error| refuse::<D::Error>(fault, field.malformed(error.to_string())));
+        } else if field.range.whole && !deserializer.is_human_readable() {
             u32::deserialize(deserializer).map(|whole| whole as f32)
         } else {
             f32::deserialize(deserializer)
         };
         let value = value.map_err(|error| refuse::<D::Error>(fault, field.malformed(error.to_string())))?;
         field.set(settings, value).map_err(|kind| refuse(fault, kind))
+    }
+}
+
+/// Reads a setting that has names.
+struct NamedVisitor<'a> {
+    field: &'static Field,
+    settings: &'a mut CoatingSettings,
+}
+
+impl<'de> Visitor<'de> for NamedVisitor<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "one of {}", self.field.allowed())
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, access: A) -> Result<(), A::Error> {
+        let (number, rest) = access.variant_seed(NumberSeed(self.field))?;
+        rest.unit_variant()?;
+        self.field.set(self.settings, number).map_err(A::Error::custom)
+    }
+}
+
+/// Reads a name as the number that it stands for; binary formats write the number itself.
+struct NumberSeed(&'static Field);
+
+impl<'de> DeserializeSeed<'de> for NumberSeed {
+    type Value = f32;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<f32, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+impl Visitor<'_> for NumberSeed {
+    type Value = f32;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "one of {}", self.0.allowed())
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<f32, E> {
+        self.0.named(name).map_err(|_| E::custom(format_args!("found `{name}`")))
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<f32, E> {
+        Ok(number as f32)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The settings as rows that can be looked up by name, made from the table.
 
-use super::{field::Field, range::Range, table::with_stages};
+use super::{field::Field, range::Range, rules::Rules, table::with_stages};
 
 /// Makes the range of a row.
 macro_rules! range {
@@ -9,6 +9,9 @@ macro_rules! range {
     };
     (open, $min:expr, $max:expr, $type:ty) => {
         Range { min: $min, max: $max, open: true, whole: <$type as Number>::WHOLE }
+    };
+    (named, $min:expr, $max:expr, $type:ty) => {
+        Range { min: $min, max: $max, open: false, whole: <$type as Number>::WHOLE }
     };
 }
 
@@ -32,6 +35,7 @@ macro_rules! define_rows {
                 path: concat!(stringify!($stage), ".", stringify!($field)),
                 doc: concat!($($doc),+),
                 range: range!($ends, $min, $max, $type),
+                names: <$type as Number>::NAMES,
                 get: |settings| settings.$stage.$field.to_f32(),
                 set: |settings, value| settings.$stage.$field = Number::from_f32(value),
             }),+],
@@ -51,6 +55,8 @@ pub(super) struct Stage {
 /// Type that a setting can have.
 trait Number: Copy {
     const WHOLE: bool;
+    /// Names of the values, for a type that has names instead of numbers.
+    const NAMES: &[&str] = &[];
     fn to_f32(self) -> f32;
     fn from_f32(value: f32) -> Self;
 }
@@ -72,6 +78,17 @@ impl Number for u32 {
     }
     fn from_f32(value: f32) -> Self {
         value as u32
+    }
+}
+
+impl Number for Rules {
+    const WHOLE: bool = true;
+    const NAMES: &[&str] = Rules::NAMES;
+    fn to_f32(self) -> f32 {
+        f32::from(self as u8)
+    }
+    fn from_f32(value: f32) -> Self {
+        if value == 0.0 { Self::Paper } else { Self::Grain }
     }
 }
 

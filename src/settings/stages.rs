@@ -4,7 +4,7 @@
 use bevy::reflect::prelude::{ReflectDefault, ReflectDeserialize, ReflectSerialize};
 use serde::Serialize;
 
-use super::table::with_stages;
+use super::{rules::Rules, table::with_stages};
 
 /// Makes the range of a row in words, for the documentation.
 macro_rules! range_in_words {
@@ -13,6 +13,9 @@ macro_rules! range_in_words {
     };
     (open, $min:expr, $max:expr) => {
         concat!("above ", stringify!($min), " and below ", stringify!($max))
+    };
+    (named, $min:expr, $max:expr) => {
+        "the names of its type"
     };
 }
 

@@ -6,10 +6,21 @@
 //! that the paper leaves open.
 
 /// Hands the table to the macro `$then`. A row is `name: type = default, ends(min, max)`, where the ends are
-/// `closed` (part of the range) or `open` (not part of it).
+/// `closed` (part of the range), `open` (not part of it) or `named` (numbers of the names of an enum).
 macro_rules! with_stages {
     ($then:ident) => {
         $then! {
+            /// Scale of cracks, relief and curls.
+            scale: ScaleSettings {
+                /// Rules by which fracture and curls are measured: the paper's, which count in triangles, or those that
+                /// count in grains. On a film under way a change acts on what becomes of it from then on.
+                rules: Rules = Rules::Paper, named(0.0, 1.0);
+                /// Grain, in metres: the length by which [`Rules::Grain`] measures. Cracks lie several grains apart,
+                /// and a curl's radius is about 1.6 grains. On a film whose mean edge is the grain the paper's rules
+                /// give much the same. A film whose mean edge is more than two grains has a larger grain: half its mean
+                /// edge. On a film under way a change draws adhesion and weak edges again.
+                grain: f32 = 0.028, closed(0.000_01, 1000.0);
+            }
             /// Adhesion of the film to the metal (VC 5.1). It varies over the film by Perlin noise and falls with age.
             /// A vertex separates when the bending force on it exceeds its adhesion. When the initial adhesion is
             /// changed on a film under way, it is drawn again with the film's seed; what was lost since stays lost, and
@@ -30,6 +41,10 @@ macro_rules! with_stages {
                 /// make more and smaller patches of weak and strong adhesion. On a film under way a change draws the
                 /// noise again. Found by trial.
                 frequency: f32 = 5.0, closed(0.01, 1000.0);
+                /// Wavelength of the first octave in grains, by [`Rules::Grain`], in place of `frequency`. There are at
+                /// least two cycles over the longest side of the film's bounding box. On a film under way a change
+                /// draws the noise again.
+                wavelength: f32 = 7.2, closed(0.1, 10_000.0);
                 /// Adhesion that is lost per unit age, as a force. This is VC's speed of deterioration w. On a film
                 /// under way a change acts on what is lost from then on.
                 decay: f32 = 1.0, closed(0.0, 100.0);
@@ -59,6 +74,17 @@ macro_rules! with_stages {
                 /// nothing, and the film breaks into smaller pieces. On a film under way a change acts on later tears.
                 /// Found by trial.
                 contraction_kept: f32 = 0.3, closed(0.0, 1.0);
+                /// Share of the contraction that a tear takes off right beside it, by [`Rules::Grain`], in place of
+                /// `contraction_kept`. At 0 a crack relieves nothing. On a film under way a change acts on later
+                /// tears. Found by trial.
+                relief: f32 = 0.95, closed(0.0, 1.0);
+                /// Distance in grains over which relief falls by the factor e, by [`Rules::Grain`]. A longer one makes
+                /// fewer cracks. On a film under way a change acts on later tears. Found by trial.
+                relief_reach: f32 = 0.6, closed(0.01, 10.0);
+                /// Length in grains over which a crack forgets its direction, by [`Rules::Grain`]. By the paper's rules
+                /// it knows that of its last edge only. On a film under way a change acts on later tears. Found by
+                /// trial.
+                memory: f32 = 1.8, closed(0.01, 100.0);
                 /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or all edges
                 /// tear at once. On a film under way edges beside cracks keep the share that they have left. Found by
                 /// trial.
@@ -93,6 +119,10 @@ macro_rules! with_stages {
                 /// flakes curl on; a lower one stops those that are beyond it, but does not bend them back. Found by
                 /// trial.
                 bend_limit: f32 = 0.35, closed(0.0, std::f32::consts::PI);
+                /// Distance in grains from a free edge over which curls fade, by [`Rules::Grain`]: at x the target
+                /// angles of edges are narrowed by the share exp(-(x / reach)^2). Film that is held all around lies
+                /// flat. On a film under way a change acts from the next crack on. Found by trial.
+                curl_reach: f32 = 2.0, closed(0.1, 1000.0);
                 /// Number of plain solver sweeps per unit age. It sets how far flakes lift, since bending is a slow
                 /// creep that does not come to an end within a step. At 0 the film does not bend. On a film under way a
                 /// change acts from the next step on. Found by trial.
@@ -104,6 +134,14 @@ macro_rules! with_stages {
                 /// attached; larger loose pieces stay. At 0 none falls, as in the paper. On a film under way a higher
                 /// value lets pieces fall that hang loose already.
                 fall_faces: u32 = 6, closed(0.0, 1_000_000.0);
+                /// Age for which a loose piece hangs on before it falls, whatever its size, by [`Rules::Grain`], in
+                /// place of `fall_faces`. On a film under way a change acts on what hangs loose already. Found by
+                /// trial.
+                hold: f32 = 0.02, closed(0.0, 100.0);
+                /// Area that must hold a piece, in faces whose edges are one grain long, by [`Rules::Grain`]. A piece
+                /// that has torn nearly off and is held by less lets go. At 0 a single vertex holds the largest piece.
+                /// On a film under way a change acts on pieces that tear further. Found by trial.
+                hold_area: f32 = 2.5, closed(0.0, 1000.0);
             }
             /// Rust that runs off below cracks and stains the surface on its way (VC 6.1), and rust of the metal
             /// itself. Lengths are in metres, so that streaks do not depend on the resolution of the film. On a film

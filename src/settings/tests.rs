@@ -12,12 +12,14 @@ fn another_value(field: &Field) -> f32 {
 
 #[test]
 fn defaults_are_those_of_the_method() {
-    let expected = "(adhesion:(mean:2.1,deviation:0.7,octaves:2,frequency:5.0,decay:1.0),\
+    let expected = "(scale:(rules:Paper,grain:0.028),\
+        adhesion:(mean:2.1,deviation:0.7,octaves:2,frequency:5.0,wavelength:7.2,decay:1.0),\
         bending:(gain:0.33333334,gamma:2.0),\
-        tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,binding:6.0,binding_decay:1.3,\
+        tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,relief:0.95,relief_reach:0.6,memory:1.8,\
+        binding:6.0,binding_decay:1.3,\
         weak_probability:0.01,weak_factor:0.001,alpha:0.45,beta:0.2),\
-        deform:(narrowing_rate:0.7,bend_limit:0.35,sweeps_per_age:10000.0),\
-        stripping:(fall_faces:6),\
+        deform:(narrowing_rate:0.7,bend_limit:0.35,curl_reach:2.0,sweeps_per_age:10000.0),\
+        stripping:(fall_faces:6,hold:0.02,hold_area:2.5),\
         rust:(emission:0.08,speed:1.5,deposit:4.0,spread:0.05,into_cracks:0.5,corrosion:4.0),\
         dust:(rate:1.2,height:0.4,direction:0.8,curvature:1.0),\
         moisture:(wetting:60.0,drying:15.0,sun:1.0,crevice:0.25,adhesion:1.0,emission:1.0,travel:0.5,\
@@ -36,14 +38,19 @@ fn every_row_of_the_table_reaches_its_own_field() {
     for field in CoatingSettings::fields() {
         let value = another_value(field);
         let mut settings = CoatingSettings::default();
-        settings.set(field.path, &value.to_string()).unwrap();
+        let text = field.names.get(value as usize).map_or(value.to_string(), |name| (*name).to_owned());
+        settings.set(field.path, &text).unwrap();
         assert_eq!(field.get(&settings), value, "{}", field.path);
+        assert_eq!(field.text(&settings), text);
 
         // Serde sees that change at that path, and nowhere else.
         let pointer = format!("/{}", field.path.replace('.', "/"));
         let mut seen = serde_json::to_value(&settings).unwrap();
         let changed = seen.pointer_mut(&pointer).unwrap_or_else(|| panic!("no {pointer}"));
-        assert_eq!(changed.as_f64().unwrap() as f32, value, "{}", field.path);
+        match field.names {
+            [] => assert_eq!(changed.as_f64().unwrap() as f32, value, "{}", field.path),
+            names => assert_eq!(changed.as_str(), Some(names[value as usize])),
+        }
         *changed = default.pointer(&pointer).unwrap().clone();
         assert_eq!(seen, default, "{}", field.path);
     }
@@ -66,7 +73,7 @@ fn the_table_misses_no_field() {
 
 #[test]
 fn every_field_refuses_what_is_out_of_its_range() {
-    for field in CoatingSettings::fields() {
+    for field in CoatingSettings::fields().filter(|field| field.names.is_empty()) {
         for (value, text) in [
             (f32::NAN, "NaN"),
             (f32::INFINITY, "inf"),
@@ -154,8 +161,8 @@ fn refusals_of_a_file_name_file_place_setting_and_range() {
         ),
         (
             "(soot: (rate: 2.0))",
-            "barrel.coating.ron:1:2: there is no setting `soot`; known here: adhesion, bending, tearing, deform, \
-             stripping, rust, dust, moisture",
+            "barrel.coating.ron:1:2: there is no setting `soot`; known here: scale, adhesion, bending, tearing, \
+             deform, stripping, rust, dust, moisture",
         ),
         ("(bending: (gain: 1.0, gain: 1.0))", "barrel.coating.ron:1:23: setting `bending.gain` is given twice"),
         ("(bending: (), bending: ())", "barrel.coating.ron:1:15: setting `bending` is given twice"),
@@ -197,8 +204,11 @@ fn settings_survive_every_kind_of_format() {
     let text = serde_json::to_string(&settings).unwrap();
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     // As formats without names do.
-    let rows: Vec<Vec<f32>> =
-        rows::STAGES.iter().map(|stage| stage.fields.iter().map(|field| field.get(&settings)).collect()).collect();
+    let value = |field: &Field| match field.names {
+        [] => serde_json::json!(field.get(&settings)),
+        _ => serde_json::json!(field.text(&settings)),
+    };
+    let rows: Vec<Vec<_>> = rows::STAGES.iter().map(|stage| stage.fields.iter().map(value).collect()).collect();
     let text = serde_json::to_string(&rows).unwrap();
     assert_eq!(serde_json::from_str::<CoatingSettings>(&text).unwrap(), settings);
     assert!(serde_json::from_str::<CoatingSettings>("[[1.0]]").is_err(), "too short");
@@ -274,10 +284,23 @@ fn the_guide_lists_every_setting() {
     let guide = std::fs::read_to_string("docs/settings.md").unwrap();
     let rows: Vec<_> = guide.lines().skip_while(|line| !line.starts_with("| setting |")).skip(2).collect();
     for (field, row) in CoatingSettings::fields().zip(rows) {
-        let expected = format!("| `{}` | {} | {} | ", field.path, field.get(&CoatingSettings::default()), field.range);
+        let expected =
+            format!("| `{}` | {} | {} | ", field.path, field.text(&CoatingSettings::default()), field.allowed());
         assert!(row.starts_with(&expected), "{row}\nshould start with\n{expected}");
     }
     for name in Preset::ALL.map(Preset::name) {
         assert!(guide.contains(&format!("| `{name}` | ")), "{name}");
     }
+}
+
+#[test]
+fn settings_with_names_are_read_by_name() {
+    let read = |text: &str| CoatingSettings::from_ron(text, "a").map(|settings| settings.scale.rules);
+    assert_eq!(read("(scale: (rules: Grain))"), Ok(Rules::Grain));
+    for text in ["(scale: (rules: Metres))", "(scale: (rules: 1))"] {
+        let error = read(text).unwrap_err();
+        assert!(matches!(error.kind, SettingsErrorKind::UnknownName { .. }), "{text}: {error}");
+        assert!(error.to_string().contains("setting `scale.rules` must be one of Paper, Grain"), "{error}");
+    }
+    assert!(CoatingSettings::default().set("scale.rules", "metres").is_err());
 }

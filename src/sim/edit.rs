@@ -81,7 +81,7 @@ pub fn tear_edge(
     h: HalfEdgeId,
 ) -> Option<FilmChanges> {
     let mut changes = FilmChanges::default();
-    edit(parts, environment, &mut changes, |parts, changes| {
+    edit(parts, settings, environment, &mut changes, |parts, changes| {
         let age = parts.clock.age() as f32;
         let FilmParts { mesh, forces, scratch, .. } = parts;
         fracture::tear_by_hand(mesh, forces, settings, environment.gravity, age, h, changes, &mut scratch.fracture)
@@ -101,7 +101,7 @@ pub fn strip_face(
     f: FaceId,
 ) -> Option<FilmChanges> {
     let mut changes = FilmChanges::default();
-    edit(parts, environment, &mut changes, |parts, changes| {
+    edit(parts, settings, environment, &mut changes, |parts, changes| {
         let age = parts.clock.age() as f32;
         let FilmParts { mesh, forces, scratch, .. } = parts;
         fracture::strip_by_hand(mesh, forces, settings, environment.gravity, age, f, changes, &mut scratch.fracture)
@@ -112,6 +112,7 @@ pub fn strip_face(
 /// Does an edit and lets all other parts follow it. Returns whether anything was edited.
 fn edit(
     mut parts: FilmParts,
+    settings: &CoatingSettings,
     environment: &Environment,
     changes: &mut FilmChanges,
     fracture: impl FnOnce(&mut FilmParts, &mut FilmChanges) -> bool,
@@ -119,6 +120,7 @@ fn edit(
     let edited = fracture(&mut parts, changes);
     if edited {
         deform::update_constraints(parts.mesh, parts.constraints, changes);
+        deform::follow_free_edges(parts.mesh, parts.constraints, settings, changes);
         stain::update_stains(parts.mesh, parts.stains, changes, environment.gravity);
     }
     edited

@@ -22,8 +22,8 @@
 //! stage::forces(mesh, forces, stains, clock, &settings);
 //! stage::separate(mesh, forces, clock, changes, &settings);
 //! stage::tear(mesh, forces, changes, &settings, environment.gravity, &mut scratch.fracture);
-//! stage::strip(mesh, forces, changes, &settings, &mut scratch.fracture);
-//! stage::link(mesh, constraints, changes);
+//! stage::strip(mesh, forces, clock, changes, &settings, &mut scratch.fracture);
+//! stage::link(mesh, constraints, changes, &settings);
 //! stage::bend(mesh, constraints, forces, clock, changes, &settings, *quality, &mut scratch.bend);
 //! stage::rust(mesh, stains, clock, changes, &settings, &environment);
 //! stage::dust(mesh, stains, clock, &settings, &environment);
@@ -92,16 +92,19 @@ pub fn tear(
 pub fn strip(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
+    clock: &FilmClock,
     changes: &mut FilmChanges,
     settings: &CoatingSettings,
     scratch: &mut FractureScratch,
 ) {
-    fracture::strip(mesh, forces, &settings.stripping, changes, scratch);
+    fracture::strip(mesh, forces, &settings.stripping, clock.age() as f32, changes, scratch);
 }
 
-/// Brings the constraints up to date with the fracture of this step (VC 5, fig. 7). See [`deform::update_constraints`].
-pub fn link(mesh: &FilmMesh, constraints: &mut FilmConstraints, changes: &FilmChanges) {
+/// Brings the constraints up to date with the fracture of this step (VC 5, fig. 7). See [`deform::update_constraints`]
+/// and [`deform::follow_free_edges`].
+pub fn link(mesh: &FilmMesh, constraints: &mut FilmConstraints, changes: &FilmChanges, settings: &CoatingSettings) {
     deform::update_constraints(mesh, constraints, changes);
+    deform::follow_free_edges(mesh, constraints, settings, changes);
 }
 
 /// Bends the separated film by position-based dynamics without inertia, PBD-2 (VC 4). `quality` decides how many sweeps
@@ -117,7 +120,11 @@ pub fn bend(
     scratch: &mut BendScratch,
 ) {
     let step = (clock.steps, clock.steps_per_age);
-    let pace = SolvePace::of_step(settings.deform.sweeps_per_age, quality, step, clock.tick().is_some());
+    let (sweeps, tick) = (settings.deform.sweeps_per_age, clock.tick().is_some());
+    let pace = match settings.scale.grain_of(&mesh.geometry) {
+        Some(grain) => SolvePace::of_grain_step(sweeps, grain.in_edges(&mesh.geometry), quality, step, tick),
+        None => SolvePace::of_step(sweeps, quality, step, tick),
+    };
     deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, scratch);
 }
 

@@ -112,8 +112,8 @@ impl FilmState {
             stage::forces(mesh, forces, stains, clock, settings);
             stage::separate(mesh, forces, clock, changes, settings);
             stage::tear(mesh, forces, changes, settings, environment.gravity, &mut scratch.fracture);
-            stage::strip(mesh, forces, changes, settings, &mut scratch.fracture);
-            stage::link(mesh, constraints, changes);
+            stage::strip(mesh, forces, clock, changes, settings, &mut scratch.fracture);
+            stage::link(mesh, constraints, changes, settings);
         });
         times.measure(Stage::Deformation, || {
             stage::bend(mesh, constraints, forces, clock, changes, settings, *quality, &mut scratch.bend);

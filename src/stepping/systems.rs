@@ -66,6 +66,7 @@ type Edited<'w, 's> = Query<
     's,
     (
         &'static FilmPace,
+        &'static FilmClock,
         &'static mut FilmMesh,
         &'static mut FilmForces,
         &'static mut FilmChanges,
@@ -75,7 +76,7 @@ type Edited<'w, 's> = Query<
 
 /// Runs [`stage::tear`]: tears edges.
 pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
-    edit(films, timings, |pace, mesh, forces, changes, scratch| {
+    edit(films, timings, |pace, _, mesh, forces, changes, scratch| {
         stage::tear(mesh, forces, changes, &pace.settings, pace.environment.gravity, &mut scratch.fracture);
         !changes.torn.is_empty()
     });
@@ -83,23 +84,23 @@ pub(super) fn tear(films: Edited, timings: ResMut<CoatingTimings>) {
 
 /// Runs [`stage::strip`]: removes faces and small pieces.
 pub(super) fn strip(films: Edited, timings: ResMut<CoatingTimings>) {
-    edit(films, timings, |pace, mesh, forces, changes, scratch| {
-        stage::strip(mesh, forces, changes, &pace.settings, &mut scratch.fracture);
+    edit(films, timings, |pace, clock, mesh, forces, changes, scratch| {
+        stage::strip(mesh, forces, clock, changes, &pace.settings, &mut scratch.fracture);
         !changes.removed.is_empty()
     });
 }
 
 /// Runs a stage that edits the due films. `stage` returns whether it changed the film.
-fn edit(
-    mut films: Edited,
-    mut timings: ResMut<CoatingTimings>,
-    stage: impl Fn(&FilmPace, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch) -> bool + Sync,
-) {
+fn edit<F>(mut films: Edited, mut timings: ResMut<CoatingTimings>, stage: F)
+where
+    F: Fn(&FilmPace, &FilmClock, &mut FilmMesh, &mut FilmForces, &mut FilmChanges, &mut StepScratch) -> bool + Sync,
+{
     timings.measure(Stage::Fracture, || {
-        films.par_iter_mut().for_each(|(pace, mut mesh, mut forces, mut changes, mut scratch)| {
+        films.par_iter_mut().for_each(|(pace, clock, mut mesh, mut forces, mut changes, mut scratch)| {
             if pace.due
                 && stage(
                     pace,
+                    clock,
                     mesh.bypass_change_detection(),
                     forces.bypass_change_detection(),
                     changes.bypass_change_detection(),
@@ -121,7 +122,7 @@ pub(super) fn link(
     timings.measure(Stage::Fracture, || {
         films.par_iter_mut().for_each(|(pace, mesh, mut constraints, changes)| {
             if pace.due && changes.fractured() {
-                stage::link(mesh, &mut constraints, changes);
+                stage::link(mesh, &mut constraints, changes, &pace.settings);
             }
         });
     });

@@ -16,7 +16,7 @@ use bevy::{
 };
 use bevy_coating::{
     CoatingSettingsPlugin, CoatingWeatheringPlugin,
-    settings::{CoatingSettings, Preset},
+    settings::{CoatingSettings, Preset, Rules},
 };
 
 /// An app whose assets are the files put into the returned folder.
@@ -162,7 +162,9 @@ fn every_setting_is_reflected() {
         let value = if field.range.whole { value.ceil() } else { value.min(0.9) };
         field.set(&mut settings, value).unwrap();
         let path = format!(".{}", field.path);
-        if field.range.whole {
+        if !field.names.is_empty() {
+            *reflected.path_mut::<Rules>(path.as_str()).unwrap() = settings.scale.rules;
+        } else if field.range.whole {
             *reflected.path_mut::<u32>(path.as_str()).unwrap() = value as u32;
         } else {
             *reflected.path_mut::<f32>(path.as_str()).unwrap() = value;

@@ -8,14 +8,17 @@ impl FilmConstraints {
     /// the momentum of points, and who sleeps.
     pub(crate) fn write_state(&self, to: &mut Words) {
         // What the plain solver keeps follows from the rest.
-        let Self { ledger, packed, plain: _, sleep, settings } = self;
+        let Self { ledger, packed, plain: _, sleep, settings, curl } = self;
         ledger.write_state(to);
         packed.write_state(to);
         sleep.write_state(to);
         to.list(settings.iter().flat_map(|(settings, quality)| {
-            let DeformSettings { narrowing_rate, bend_limit, sweeps_per_age } = settings;
+            let DeformSettings { narrowing_rate, bend_limit, curl_reach: _, sweeps_per_age } = settings;
             [narrowing_rate.to_bits(), bend_limit.to_bits(), sweeps_per_age.to_bits(), *quality as u32]
         }));
+        if let Some(curl) = curl {
+            curl.write_state(to);
+        }
     }
 }
 

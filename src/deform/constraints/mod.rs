@@ -11,6 +11,7 @@ mod validate;
 
 use super::{
     bend::{BendConstraint, bend_points},
+    curl::CurlField,
     ledger::Ledger,
     length::LengthConstraint,
     pace::{Narrowing, SolverQuality},
@@ -66,6 +67,8 @@ pub struct FilmConstraints {
     sleep: SleepMarks,
     /// Settings and quality of the last step.
     settings: Option<(DeformSettings, SolverQuality)>,
+    /// Distances from free edges, on a film that is measured by its grain.
+    curl: Option<Box<CurlField>>,
 }
 
 impl FilmConstraints {
@@ -219,6 +222,26 @@ impl FilmConstraints {
             self.wake(mesh, v);
         }
         self.packed.restart_narrowing();
+    }
+
+    /// Takes the distances from free edges, to be brought up to date.
+    pub(super) fn take_curl(&mut self) -> Option<Box<CurlField>> {
+        self.curl.take()
+    }
+
+    /// Puts the distances from free edges back.
+    pub(super) fn put_curl(&mut self, field: Box<CurlField>) {
+        self.curl = Some(field);
+    }
+
+    /// Sets the share of what the settings say by which the target at the edge `h` narrows, now or once it bends. Where
+    /// it bends and may now go on, its vertices wake.
+    pub(super) fn set_share(&mut self, mesh: &FilmMesh, h: HalfEdgeId, share: f32) {
+        if self.packed.set_share(&mut self.ledger, &mesh.topology, h, share) {
+            for v in bend_points(&mesh.topology, h) {
+                self.wake(mesh, VertexId(v));
+            }
+        }
     }
 
     /// Narrows all targets.

@@ -102,7 +102,7 @@ impl PackedConstraints {
         ledger.bends().lane(h).is_some_and(|lane| {
             let bend = self.bend_in(topology, h, lane);
             // A step that rounding swallows, like one of 0, leads nowhere.
-            bend.target > bend.start - by.limit && bend.target - by.step < bend.target
+            bend.target > bend.start - by.limit * bend.share && bend.target - by.step * bend.share < bend.target
         })
     }
 
@@ -183,8 +183,8 @@ impl PackedConstraints {
         let (skews, medians) = shape_at_rest(vertices.map(|v| mesh.geometry.rest_positions[v as usize]));
         let unit = self.points.unit();
         let medians = medians.map(|median| (median / unit) * (median / unit));
-        let (start, target) = (ledger.start(h), ledger.parked_target(h));
-        self.place_bend(ledger, &mesh.topology, h, &BendLane { vertices, skews, medians, start, target });
+        let (start, target, share) = (ledger.start(h), ledger.parked_target(h), ledger.share(h));
+        self.place_bend(ledger, &mesh.topology, h, &BendLane { vertices, skews, medians, start, target, share });
     }
 
     fn place_bend(&mut self, ledger: &mut Ledger, topology: &Topology, h: HalfEdgeId, bend: &BendLane) {
@@ -255,6 +255,20 @@ impl PackedConstraints {
         bends.clear();
         lengths.clear();
         (self.spare_bends, self.spare_lengths) = (bends, lengths);
+    }
+
+    /// Sets the share by which the target of the bend that `h` carries narrows, also where it carries none yet. Returns
+    /// whether it carries one and the share grew.
+    pub fn set_share(&mut self, ledger: &mut Ledger, topology: &Topology, h: HalfEdgeId, share: f32) -> bool {
+        let before = ledger.share(h);
+        ledger.set_share(h, share);
+        if let Some(lane) = ledger.bends().lane(h)
+            && share != before
+        {
+            let region = self.region_index(topology, h);
+            self.regions[region].set_share(lane, share);
+        }
+        ledger.bends().has(h) && share > before
     }
 
     /// Narrows all targets.

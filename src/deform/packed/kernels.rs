@@ -281,7 +281,8 @@ pub(super) unsafe fn advance<L: Lanes>(
     }
 }
 
-/// Narrows the targets of a pack by `step`, down to `limit` below where they began, and renews its folds. Returns
+/// Narrows the targets of a pack by `step`, down to `limit` below where they began, both times the share of each, and
+/// renews its folds. Returns
 /// whether any may still narrow.
 #[inline(always)]
 pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTargets, step: f32, limit: f32) -> bool {
@@ -289,9 +290,10 @@ pub(super) unsafe fn narrow<L: Lanes>(pack: &mut BendPack, angles: &mut BendTarg
     for at in (0..LANES).step_by(L::WIDTH) {
         // SAFETY: `at` is within the pack and the rest is the caller's.
         unsafe {
-            let end = L::load(angles.starts.as_ptr().wrapping_add(at)).sub(L::splat(limit));
+            let share = L::load(angles.shares.as_ptr().wrapping_add(at));
+            let end = L::load(angles.starts.as_ptr().wrapping_add(at)).sub(L::splat(limit).mul(share));
             let target = L::load(angles.targets.as_ptr().wrapping_add(at));
-            let next = target.sub(L::splat(step));
+            let next = target.sub(L::splat(step).mul(share));
             let next = L::select(next.gt(end), next, end);
             let target = L::select(target.gt(end), next, target);
             target.store(angles.targets.as_mut_ptr().wrapping_add(at));

@@ -33,6 +33,8 @@ pub struct BendTargets {
     pub starts: PerLane<f32>,
     /// Target angle phi0 now, in radians.
     pub targets: PerLane<f32>,
+    /// Share of what the settings say by which each target narrows.
+    pub shares: PerLane<f32>,
 }
 
 /// Length constraints as the sweeps read them.
@@ -53,7 +55,8 @@ impl BendPack {
 
 impl BendTargets {
     /// Pack of null constraints.
-    pub const NULL: Self = Self { skews: [[0.0; LANES]; 2], starts: [0.0; LANES], targets: [0.0; LANES] };
+    pub const NULL: Self =
+        Self { skews: [[0.0; LANES]; 2], starts: [0.0; LANES], targets: [0.0; LANES], shares: [1.0; LANES] };
 }
 
 impl LengthPack {

@@ -22,6 +22,8 @@ pub struct BendLane {
     pub start: f32,
     /// Target angle now, in radians.
     pub target: f32,
+    /// Share of what the settings say by which the target narrows.
+    pub share: f32,
 }
 
 /// Length constraint, as a lane holds it. Lengths are in the points' unit.
@@ -66,6 +68,7 @@ impl Region {
         }
         self.targets[pack].starts[slot] = bend.start;
         self.targets[pack].targets[slot] = bend.target;
+        self.targets[pack].shares[slot] = bend.share;
         // Its folds are found when the targets narrow next.
         self.narrowing[pack] = true;
         self.move_bend(lane, bend.vertices, points);
@@ -82,6 +85,13 @@ impl Region {
         self.lengths[pack].rest[slot] = length.rest;
         self.move_length(lane, length.vertices, points);
         lane
+    }
+
+    /// Sets the share by which the target of the bend in `lane` narrows.
+    pub fn set_share(&mut self, lane: u32, share: f32) {
+        let (pack, slot) = split(lane);
+        self.targets[pack].shares[slot] = share;
+        self.narrowing[pack] = true;
     }
 
     /// Makes a bend refer to other vertices.
@@ -110,6 +120,7 @@ impl Region {
             medians: [0, 1].map(|i| bends.medians[i][slot]),
             start: targets.starts[slot],
             target: targets.targets[slot],
+            share: targets.shares[slot],
         }
     }
 
@@ -135,6 +146,7 @@ impl Region {
         }
         targets.starts[slot] = 0.0;
         targets.targets[slot] = 0.0;
+        targets.shares[slot] = 1.0;
         self.bend_slots.release(lane);
         bend
     }
@@ -202,8 +214,12 @@ impl Region {
             to.list(points.as_flattened().iter().map(|offset| offset.index() as u32));
             to.floats(folds.as_flattened().iter().chain(medians.as_flattened()));
         }
-        for BendTargets { skews, starts, targets } in targets {
+        for BendTargets { skews, starts, targets, shares } in targets {
             to.floats(skews.as_flattened().iter().chain(starts).chain(targets));
+            // All are 1 by the paper's rules.
+            if shares.iter().any(|&share| share != 1.0) {
+                to.floats(shares);
+            }
         }
         to.flags(narrowing);
         for LengthPack { points, rest } in lengths {
@@ -301,16 +317,24 @@ mod tests {
         let mut region = Region::default();
         let (points, mut blocked) = (Points::default(), Blocked::default());
         blocked.next();
-        let bend = BendLane { vertices: [0, 1, 2, 3], skews: [0.9; 2], medians: [0.8; 2], start: 3.0, target: 3.0 };
+        let bend = BendLane {
+            vertices: [0, 1, 2, 3],
+            skews: [0.9; 2],
+            medians: [0.8; 2],
+            start: 3.0,
+            target: 3.0,
+            share: 1.0,
+        };
         region.add_bend(1, &bend, &blocked, &points);
         region.add_length(2, &LengthLane { vertices: [0, 1], rest: 1.0 }, &blocked, &points);
-        let changes: [fn(&mut Region); 11] = [
+        let changes: [fn(&mut Region); 12] = [
             |region| region.bends[0].points[2][0] = PointOffset::new(1),
             |region| region.bends[0].folds[1][0] = 0.5,
             |region| region.bends[0].medians[1][0] = 0.5,
             |region| region.targets[0].skews[1][0] = 0.5,
             |region| region.targets[0].starts[0] = 0.5,
             |region| region.targets[0].targets[0] = 0.5,
+            |region| region.targets[0].shares[0] = 0.5,
             |region| region.narrowing[0] = false,
             |region| region.lengths[0].points[1][0] = PointOffset::new(1),
             |region| region.lengths[0].rest[0] = 0.5,

@@ -1,5 +1,6 @@
 //! Both constraints against numeric gradients and limits; the solver against the paper's figures.
 
+mod curl;
 pub mod draw;
 mod finite;
 

@@ -54,6 +54,12 @@ impl PieceScratch {
         faces
     }
 
+    /// Returns the faces of the piece of `seed`, in the order of a breadth-first search.
+    pub fn piece_of(&mut self, topology: &Topology, seed: FaceId) -> &[FaceId] {
+        let mark = self.fresh_mark(topology);
+        self.flood(topology, seed, mark)
+    }
+
     /// Returns the faces of the smaller side, in the order of the search, if the tear of `edge` and its twin cut a
     /// piece in two. Returns `None` if both sides are still connected some other way. Both ends of the edge must have
     /// split.

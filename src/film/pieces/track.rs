@@ -91,6 +91,11 @@ impl FilmPieces {
         self.of.len() == topology.face_count()
     }
 
+    /// Returns the number of attached vertices of the piece of `f`, which must be live.
+    pub fn attached_of(&self, f: FaceId) -> u32 {
+        self.pieces[self.of[f.index()] as usize].attached
+    }
+
     /// Records that `v`, which was attached until now, has separated.
     pub fn vertex_separated(&mut self, topology: &Topology, v: VertexId) {
         let Some(h) = topology.fan(v).next() else { return };

@@ -1,6 +1,7 @@
 //! Tests each equation and rule of the fracture stages against an independent derivation.
 
 mod follow;
+mod grain;
 mod predictions;
 
 use core::f32::consts::PI;
@@ -356,7 +357,7 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
         film.settings.tearing.alpha = 1.0;
         assert_eq!(film.step().len(), 6);
         let mut scratch = FractureScratch::default();
-        strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
+        strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, 0.5, &mut film.changes, &mut scratch);
         film.mesh.validate().unwrap();
         assert_eq!(film.changes.removed.len(), fallen, "limit {limit}");
         assert_eq!(film.forces.loose.len(), usize::from(fallen == 0));
@@ -381,6 +382,7 @@ fn faces_torn_all_round_are_stripped_and_loose_pieces_fall_up_to_the_limit() {
         &mut film.mesh,
         &mut film.forces,
         &film.settings.stripping,
+        0.5,
         &mut film.changes,
         &mut FractureScratch::default(),
     );
@@ -401,12 +403,12 @@ fn a_border_face_hangs_on_until_its_last_vertex_separates() {
     let mut scratch = FractureScratch::default();
     let attached = film.mesh.topology.corners(HalfEdgeId(0).face())[1];
     film.attach(attached, true);
-    strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
+    strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, 0.5, &mut film.changes, &mut scratch);
     assert_eq!(film.changes.removed, []);
     film.changes.clear();
     film.attach(attached, false);
     film.changes.separated.push(attached);
-    strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, &mut film.changes, &mut scratch);
+    strip(&mut film.mesh, &mut film.forces, &film.settings.stripping, 0.5, &mut film.changes, &mut scratch);
     assert_eq!(film.changes.removed, [HalfEdgeId(0).face()]);
     film.mesh.validate().unwrap();
 }

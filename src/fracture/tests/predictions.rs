@@ -16,7 +16,7 @@ use crate::{
         tearing::{tear, tear_everywhere},
     },
     remesh::sample,
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Rules},
 };
 
 /// A film, and a second one of the same kind that discards its predictions now and then.
@@ -68,7 +68,7 @@ fn any_film() -> impl Strategy<Value = FilmMesh> {
 /// Sets one of the settings that fracture depends on.
 fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
     let tearing = &mut settings.tearing;
-    let (setting, max) = match which % 17 {
+    let (setting, max) = match which % 23 {
         0 => (&mut settings.adhesion.decay, 3.0),
         1 => (&mut settings.bending.gain, 0.6),
         2 => (&mut settings.bending.gamma, 6.0),
@@ -88,6 +88,16 @@ fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
         13 => (&mut tearing.binding, 8.0),
         14 => (&mut tearing.weak_probability, 0.3),
         15 => (&mut tearing.weak_factor, 1.0),
+        16 => (&mut tearing.relief, 1.0),
+        17 => (&mut tearing.relief_reach, 3.0),
+        18 => (&mut tearing.memory, 10.0),
+        19 => (&mut settings.stripping.hold, 0.2),
+        20 => (&mut settings.stripping.hold_area, 10.0),
+        21 => {
+            settings.scale.rules = if share < 0.3 { Rules::Paper } else { Rules::Grain };
+            settings.scale.grain = 0.02 + share;
+            return;
+        }
         // Back to the start, so that settings do not stay extreme.
         _ => {
             *settings = CoatingSettings::default();
@@ -135,7 +145,7 @@ impl Pair {
         assert_eq!(*changes, all_changes);
         assert!(*mesh == all_mesh && *forces == all_forces);
 
-        strip(mesh, forces, &settings.stripping, changes, scratch);
+        strip(mesh, forces, &settings.stripping, age, changes, scratch);
         mesh.validate().unwrap();
         forces.validate(&mesh.topology).unwrap();
 
@@ -143,7 +153,7 @@ impl Pair {
         let (mut other_changes, mut other_scratch) = (FilmChanges::default(), FractureScratch::default());
         separate(other_mesh, other_forces, settings, age, &mut other_changes);
         tear(other_mesh, other_forces, &settings.tearing, gravity, &mut other_changes, &mut other_scratch);
-        strip(other_mesh, other_forces, &settings.stripping, &mut other_changes, &mut other_scratch);
+        strip(other_mesh, other_forces, &settings.stripping, age, &mut other_changes, &mut other_scratch);
         assert_eq!(*changes, other_changes);
         assert!(mesh == other_mesh && forces == other_forces);
     }
@@ -203,7 +213,7 @@ fn judged_in_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmFor
         age_forces(&mesh, &mut forces, settings, &[], 1.0 / steps as f32);
         separate(&mesh, &mut forces, settings, step as f32 / steps as f32, &mut changes);
         tear(&mut mesh, &mut forces, &settings.tearing, Vec3::NEG_Y, &mut changes, &mut scratch);
-        strip(&mut mesh, &mut forces, &settings.stripping, &mut changes, &mut scratch);
+        strip(&mut mesh, &mut forces, &settings.stripping, step as f32 / steps as f32, &mut changes, &mut scratch);
     }
     let Predictions { separations, tears, .. } = &forces.predictions;
     ([separations.judged, tears.judged], forces, mesh)

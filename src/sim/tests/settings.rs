@@ -6,7 +6,7 @@ use super::quick;
 use crate::{
     film::FilmMesh,
     remesh::sample,
-    settings::{CoatingSettings, Field},
+    settings::{CoatingSettings, Field, Rules},
     sim::state::FilmState,
     stain::{Environment, StainLayer},
 };
@@ -37,6 +37,16 @@ fn other(field: &Field, settings: &CoatingSettings) -> f32 {
     other
 }
 
+/// Returns quick settings with the rules by which `field` acts, and a grain of about the mean edge of [`curved`].
+fn rules_of(field: &Field) -> CoatingSettings {
+    let by_grain = ["scale.grain", "adhesion.wavelength", "tearing.relief", "tearing.memory", "deform.curl_reach"];
+    let by_grain = by_grain.iter().any(|path| field.path.starts_with(path)) || field.path.starts_with("stripping.hold");
+    let mut settings = quick();
+    settings.scale.grain = 0.055;
+    settings.scale.rules = if by_grain { Rules::Grain } else { Rules::Paper };
+    settings
+}
+
 /// Returns cracks, shape and stains of a film: everything that can be seen of it.
 fn looks(film: &FilmState) -> (&FilmMesh, [&StainLayer; 2], &[f32]) {
     (&film.mesh, [&film.stains.film, &film.stains.metal], &film.stains.corrosion)
@@ -44,18 +54,21 @@ fn looks(film: &FilmState) -> (&FilmMesh, [&StainLayer; 2], &[f32]) {
 
 #[test]
 fn every_setting_acts_on_a_film_under_way() {
-    let settings = quick();
-    let mut start = curved(800, 4, &settings);
-    start.age_to(0.4, &settings, &weather());
-    let mut unchanged = start.clone();
-    unchanged.age_to(0.9, &settings, &weather());
-    for field in CoatingSettings::fields() {
-        let mut changed = settings.clone();
-        field.set(&mut changed, other(field, &settings)).unwrap();
-        let mut film = start.clone();
-        film.age_to(0.9, &changed, &weather());
-        film.validate().unwrap_or_else(|error| panic!("{}: {error}", field.path));
-        assert!(looks(&film) != looks(&unchanged), "{} changes nothing", field.path);
+    for rules in [Rules::Paper, Rules::Grain] {
+        let fields: Vec<_> = CoatingSettings::fields().filter(|field| rules_of(field).scale.rules == rules).collect();
+        let settings = rules_of(fields[0]);
+        let mut start = curved(800, 4, &settings);
+        start.age_to(0.4, &settings, &weather());
+        let mut unchanged = start.clone();
+        unchanged.age_to(0.9, &settings, &weather());
+        for field in fields {
+            let mut changed = settings.clone();
+            field.set(&mut changed, other(field, &settings)).unwrap();
+            let mut film = start.clone();
+            film.age_to(0.9, &changed, &weather());
+            film.validate().unwrap_or_else(|error| panic!("{}: {error}", field.path));
+            assert!(looks(&film) != looks(&unchanged), "{} changes nothing", field.path);
+        }
     }
 }
 
@@ -67,7 +80,9 @@ fn a_change_there_and_back_changes_no_bit() {
     film.forces.set_adhesion(crate::film::VertexId(5), 3.0);
     let before = film.digest();
     let mut all = settings.clone();
-    for field in CoatingSettings::fields() {
+    // By the grain, some edges do not decay; what decayed until then is rounded another way after a change there and
+    // back.
+    for field in CoatingSettings::fields().filter(|field| !field.path.starts_with("scale.")) {
         let mut changed = settings.clone();
         field.set(&mut changed, other(field, &settings)).unwrap();
         field.set(&mut all, other(field, &settings)).unwrap();

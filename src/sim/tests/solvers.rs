@@ -116,8 +116,8 @@ fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
     stage::forces(mesh, forces, stains, clock, settings);
     stage::separate(mesh, forces, clock, changes, settings);
     stage::tear(mesh, forces, changes, settings, environment.gravity, &mut scratch.fracture);
-    stage::strip(mesh, forces, changes, settings, &mut scratch.fracture);
-    stage::link(mesh, constraints, changes);
+    stage::strip(mesh, forces, clock, changes, settings, &mut scratch.fracture);
+    stage::link(mesh, constraints, changes, settings);
     let step = (clock.steps, clock.steps_per_age);
     let pace = SolvePace::of_step(settings.deform.sweeps_per_age, *quality, step, false);
     deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, &mut scratch.bend);

@@ -119,9 +119,10 @@ fn targets_narrow_to_finite_angles_by_steps_of_any_size() {
     for number in 0..PACKS {
         let starts = lanes(|| 6.3 * draw.share());
         let skews = std::array::from_fn(|_| lanes(|| draw.share()));
+        let shares = lanes(|| 3.0 * draw.share());
         let (step, limit) = (draw.size(), std::f32::consts::PI * draw.share());
         let run = |level| {
-            let (mut pack, mut angles) = (BendPack::NULL, BendTargets { skews, starts, targets: starts });
+            let (mut pack, mut angles) = (BendPack::NULL, BendTargets { skews, starts, targets: starts, shares });
             let narrowing = unsafe { (Kernels::of(level).narrow)(&mut pack, &mut angles, step, limit) };
             let numbers: Vec<f32> = angles.targets.into_iter().chain(pack.folds.into_iter().flatten()).collect();
             (numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), numbers, narrowing)

@@ -1,0 +1,88 @@
+//! Link between fracture and curls: how far each edge may curl follows the free edges.
+
+use super::{constraints::FilmConstraints, curl::CurlField};
+use crate::{
+    film::{FilmChanges, FilmMesh, VertexId},
+    settings::CoatingSettings,
+};
+
+/// Brings the targets of bends in step with the free edges after the fracture of this step, on a film that is measured
+/// by its [grain](crate::settings::Rules::Grain); by the paper's rules every edge curls by what the settings say. Call
+/// it after [`update_constraints`](super::update_constraints). Does nothing if nothing fractured.
+///
+/// The target of an edge narrows by [`bend_limit`](crate::settings::DeformSettings::bend_limit) times d / (0.577 s)
+/// exp(-(x / r)^2): d is the distance of its faces' centroids and s the grain, so that a free strip bends to the same
+/// curvature on every film; x is the distance from the nearest free edge over connected film (torn edges, edges of
+/// removed faces, and the open border where it has separated), and r the
+/// [`curl_reach`](crate::settings::DeformSettings::curl_reach).
+///
+/// ```
+/// use bevy_coating::{
+///     deform::{FilmConstraints, follow_free_edges, update_constraints},
+///     film::{FilmChanges, FilmMesh},
+///     settings::{CoatingSettings, Rules},
+/// };
+/// use bevy_math::Vec3;
+///
+/// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE], &[[0, 1, 2], [2, 1, 3]])?;
+/// let mut constraints = FilmConstraints::new(&mesh);
+/// let mut settings = CoatingSettings::default();
+/// settings.scale.rules = Rules::Grain;
+/// let mut changes = FilmChanges::default();
+/// changes.separated.extend(mesh.topology.all_vertices());
+///
+/// update_constraints(&mesh, &mut constraints, &changes);
+/// follow_free_edges(&mesh, &mut constraints, &settings, &changes);
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
+pub fn follow_free_edges(
+    mesh: &FilmMesh,
+    constraints: &mut FilmConstraints,
+    settings: &CoatingSettings,
+    changes: &FilmChanges,
+) {
+    if !changes.fractured() {
+        return;
+    }
+    let topology = &mesh.topology;
+    let Some(grain) = settings.scale.grain_of(&mesh.geometry) else {
+        if constraints.take_curl().is_some() {
+            topology.all_edges().for_each(|h| constraints.set_share(mesh, h, 1.0));
+        }
+        return;
+    };
+    let fresh = CurlField::new(grain, settings.deform.curl_reach);
+    let before = constraints.take_curl();
+    let known = before.filter(|field| (field.grain, field.reach) == (fresh.grain, fresh.reach));
+    let is_new = known.is_none();
+    let mut field = known.unwrap_or(fresh);
+    field.follow(topology);
+    field.changed.clear();
+    let is_free = |v: VertexId| !constraints.is_attached(v);
+    if is_new {
+        for h in topology.all_half_edges().filter(|&h| topology.is_live(h.face())) {
+            if topology.is_torn(h) || topology.rest_twin(h).is_some_and(|twin| !topology.is_live(twin.face())) {
+                field.seed_torn(mesh, h);
+            }
+        }
+        topology.all_vertices().filter(|&v| is_free(v)).for_each(|v| field.seed_border(mesh, v, is_free));
+    } else {
+        changes.torn.iter().for_each(|&h| field.seed_torn(mesh, h));
+        for v in changes.removed.iter().flat_map(|&f| topology.corners(f)) {
+            field.seed(mesh, v);
+        }
+        changes.separated.iter().for_each(|&v| field.seed_border(mesh, v, is_free));
+    }
+    field.spread(mesh);
+    if is_new {
+        topology.all_edges().for_each(|h| constraints.set_share(mesh, h, field.share(mesh, h)));
+    } else {
+        for i in 0..field.changed.len() {
+            for h in topology.fan(field.changed[i]).flat_map(|h| [h, h.previous()]) {
+                let edge = topology.edge(h);
+                constraints.set_share(mesh, edge, field.share(mesh, edge));
+            }
+        }
+    }
+    constraints.put_curl(field);
+}
