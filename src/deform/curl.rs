@@ -13,8 +13,8 @@ use crate::film::{FilmMesh, Grain, HalfEdgeId, Topology, VertexId, words::Words}
 /// Distance of the centroids of two regular faces, in edges: the unit of curvature.
 const REGULAR: f32 = 0.577_350_26;
 
-/// Distance in lengths of the reach beyond which nothing curls: the share is below 0.002 there.
-const FAR: f32 = 2.5;
+/// Distance in lengths of the reach beyond which nothing curls: the share is below 0.02 there.
+const FAR: f32 = 2.0;
 
 /// Largest share of an edge, whatever the distance of its faces: coarse films do not fold.
 const LARGEST: f32 = 3.0;
@@ -25,6 +25,9 @@ pub(super) struct CurlField {
     pub grain: Grain,
     /// Distance over which curls fade, in units of the film's space.
     pub reach: f32,
+    /// Share of each edge that is free, by its lower half-edge: the distance of its faces' centroids over that of
+    /// regular faces at the grain; 0 at the border.
+    full: Vec<f32>,
     /// Distance of each vertex from the nearest free edge; infinite where that is far.
     distances: Vec<f32>,
     /// Point of that free edge.
@@ -33,16 +36,46 @@ pub(super) struct CurlField {
     queue: VecDeque<VertexId>,
     /// Vertices whose distance has changed in this step, some of them twice.
     pub changed: Vec<VertexId>,
+    /// Step in which the share of each edge was last looked at, by its lower half-edge.
+    looked_at: Vec<u32>,
+    step: u32,
 }
 
 impl CurlField {
-    pub fn new(grain: Grain, reach: f32) -> Box<Self> {
+    /// Makes the field of a film without free edges. `reach` is in grains.
+    pub fn new(mesh: &FilmMesh, grain: Grain, reach: f32) -> Box<Self> {
+        let topology = &mesh.topology;
+        let centroid = |h: HalfEdgeId| mesh.geometry.rest_centroid(topology, h.face());
+        let mut full = vec![0.0; topology.half_edge_count()];
+        for h in topology.all_edges() {
+            let Some(twin) = topology.rest_twin(h) else { continue };
+            let apart = (centroid(h) - centroid(twin)).length_squared().sqrt();
+            let share = apart / (REGULAR * grain.length);
+            full[h.index()] = if share < LARGEST { share } else { LARGEST };
+        }
+        let looked_at = vec![0; full.len()];
         let (distances, nearest, queue, changed) = Default::default();
-        Box::new(Self { grain, reach: reach * grain.length, distances, nearest, queue, changed })
+        let reach = reach * grain.length;
+        Box::new(Self { grain, reach, full, distances, nearest, queue, changed, looked_at, step: 0 })
+    }
+
+    /// Returns whether this is the field of a film with that grain and that reach, in grains.
+    pub fn is_of(&self, grain: Grain, reach: f32) -> bool {
+        (self.grain, self.reach) == (grain, reach * grain.length)
+    }
+
+    /// Begins a step.
+    pub fn begin(&mut self, topology: &Topology) {
+        self.follow(topology);
+        self.changed.clear();
+        self.step = self.step.checked_add(1).unwrap_or_else(|| {
+            self.looked_at.fill(0);
+            1
+        });
     }
 
     /// Makes room for the vertices that were added: each is at a free edge.
-    pub fn follow(&mut self, topology: &Topology) {
+    fn follow(&mut self, topology: &Topology) {
         self.distances.resize(topology.vertex_count(), f32::INFINITY);
         self.nearest.resize(topology.vertex_count(), Vec3::ZERO);
     }
@@ -83,37 +116,56 @@ impl CurlField {
         while let Some(v) = self.queue.pop_front() {
             let from = self.nearest[v.index()];
             for h in mesh.topology.fan(v) {
-                for n in [mesh.topology.target(h), mesh.topology.apex(h)] {
-                    let distance = (mesh.geometry.rest_positions[n.index()] - from).length_squared().sqrt();
-                    if distance < far && distance < self.distances[n.index()] {
-                        self.distances[n.index()] = distance;
-                        self.nearest[n.index()] = from;
-                        self.queue.push_back(n);
-                        self.changed.push(n);
-                    }
+                self.reach_from(mesh, from, far, mesh.topology.target(h));
+                // Where nothing follows in the fan, the last neighbour is no face's next corner.
+                if mesh.topology.bound_twin(h.previous()).is_none() {
+                    self.reach_from(mesh, from, far, mesh.topology.apex(h));
                 }
             }
         }
     }
 
-    /// Returns by which share of what the settings say the target of the bend at `h` narrows.
-    pub fn share(&self, mesh: &FilmMesh, h: HalfEdgeId) -> f32 {
-        let topology = &mesh.topology;
-        let Some(twin) = topology.rest_twin(h) else { return 0.0 };
-        let apart =
-            mesh.geometry.rest_centroid(topology, h.face()) - mesh.geometry.rest_centroid(topology, twin.face());
-        let bend = apart.length_squared().sqrt() / (REGULAR * self.grain.length);
-        let ends = [topology.origin(h), topology.target(h)].map(|v| self.distances[v.index()]);
-        let x = (ends[0] + ends[1]) * 0.5 / self.reach;
-        if bend < LARGEST { bend * ops::exp(-x * x) } else { LARGEST * ops::exp(-x * x) }
+    /// Notes that `n` lies by a straight line from the point `from` of a free edge, if that is nearer than what it has.
+    fn reach_from(&mut self, mesh: &FilmMesh, from: Vec3, far: f32, n: VertexId) {
+        let distance = (mesh.geometry.rest_positions[n.index()] - from).length_squared().sqrt();
+        if distance < far && distance < self.distances[n.index()] {
+            self.distances[n.index()] = distance;
+            self.nearest[n.index()] = from;
+            self.queue.push_back(n);
+            self.changed.push(n);
+        }
+    }
+
+    /// Calls `act` with each edge at a vertex whose distance has changed in this step, once, and with the share of what
+    /// the settings say by which its target narrows.
+    pub fn for_changed(&mut self, topology: &Topology, mut act: impl FnMut(HalfEdgeId, f32)) {
+        for &v in &self.changed {
+            for h in topology.fan(v).flat_map(|h| [h, h.previous()]) {
+                let edge = topology.edge(h);
+                if std::mem::replace(&mut self.looked_at[edge.index()], self.step) != self.step {
+                    act(edge, share_of(self.full[edge.index()], &self.distances, self.reach, topology, edge));
+                }
+            }
+        }
+    }
+
+    /// Returns by which share of what the settings say the target at `edge` narrows.
+    pub fn share(&self, topology: &Topology, edge: HalfEdgeId) -> f32 {
+        share_of(self.full[edge.index()], &self.distances, self.reach, topology, edge)
     }
 
     /// Appends all that decides later distances.
     pub fn write_state(&self, to: &mut Words) {
-        let Self { grain, reach, distances, nearest, queue: _, changed: _ } = self;
+        let Self { grain, reach, full: _, distances, nearest, queue: _, changed: _, looked_at: _, step: _ } = self;
         to.float(grain.length);
         to.float(*reach);
         to.floats(distances);
         to.vectors(nearest);
     }
+}
+
+/// Returns the share of `edge`: the whole of it at a free edge, less the farther from it.
+fn share_of(full: f32, distances: &[f32], reach: f32, topology: &Topology, edge: HalfEdgeId) -> f32 {
+    let x = (distances[topology.origin(edge).index()] + distances[topology.target(edge).index()]) * 0.5 / reach;
+    if x < FAR { full * ops::exp(-x * x) } else { 0.0 }
 }

@@ -51,13 +51,12 @@ pub fn follow_free_edges(
         }
         return;
     };
-    let fresh = CurlField::new(grain, settings.deform.curl_reach);
+    let reach = settings.deform.curl_reach;
     let before = constraints.take_curl();
-    let known = before.filter(|field| (field.grain, field.reach) == (fresh.grain, fresh.reach));
+    let known = before.filter(|field| field.is_of(grain, reach));
     let is_new = known.is_none();
-    let mut field = known.unwrap_or(fresh);
-    field.follow(topology);
-    field.changed.clear();
+    let mut field = known.unwrap_or_else(|| CurlField::new(mesh, grain, reach));
+    field.begin(topology);
     let is_free = |v: VertexId| !constraints.is_attached(v);
     if is_new {
         for h in topology.all_half_edges().filter(|&h| topology.is_live(h.face())) {
@@ -75,14 +74,9 @@ pub fn follow_free_edges(
     }
     field.spread(mesh);
     if is_new {
-        topology.all_edges().for_each(|h| constraints.set_share(mesh, h, field.share(mesh, h)));
+        topology.all_edges().for_each(|h| constraints.set_share(mesh, h, field.share(topology, h)));
     } else {
-        for i in 0..field.changed.len() {
-            for h in topology.fan(field.changed[i]).flat_map(|h| [h, h.previous()]) {
-                let edge = topology.edge(h);
-                constraints.set_share(mesh, edge, field.share(mesh, edge));
-            }
-        }
+        field.for_changed(topology, |h, share| constraints.set_share(mesh, h, share));
     }
     constraints.put_curl(field);
 }

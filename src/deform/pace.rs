@@ -6,9 +6,6 @@ use bevy::reflect::prelude::ReflectDefault;
 /// Least number of sweeps an age that are really done, if as many are asked for: below, flakes would move in jerks.
 const LEAST_SWEEPS: f32 = 1000.0;
 
-/// Number of times that a fine film is swept as often as one whose mean edge is its grain.
-const MOST_SWEEPS: f32 = 2.0;
-
 /// Largest momentum.
 const MOST_MOMENTUM: f32 = 0.999;
 
@@ -104,8 +101,8 @@ impl SolvePace {
     ///
     /// The progress of wide curls goes with the number of sweeps times the fourth power of the edge, so that many
     /// sweeps are asked for: `sweeps_per_age` on a film whose mean edge is the grain, 16 times as many where it is half
-    /// of it. Momentum pays for most of them: no film is swept more than twice as often as one whose mean edge is the
-    /// grain.
+    /// of it. Momentum pays for most of them: a film is swept more often than one whose mean edge is the grain only
+    /// where momentum would be above 0.999.
     pub fn of_grain_step(
         sweeps_per_age: f32,
         in_edges: f32,
@@ -117,7 +114,7 @@ impl SolvePace {
         let (done, _) = sweeps_and_momentum(sweeps_per_age, quality);
         let done = match quality {
             SolverQuality::Reference => asked,
-            _ => done * in_edges.clamp(1.0, MOST_SWEEPS),
+            _ => done,
         };
         // Beyond this momentum what moves rings on.
         let least = asked * (1.0 - MOST_MOMENTUM);

@@ -16,6 +16,9 @@ use crate::{
     film::{FilmMesh, Geometry, HalfEdgeId, Topology, VertexId, words::Words},
 };
 
+/// Growth of the share of a bend that is too little to be seen: what sleeps there sleeps on.
+const LEAST_WAKE: f32 = 1e-3;
+
 /// Constraints of a film as the packed solver sees them. Which there are, and in which lane each lies, is in the
 /// film's [`Ledger`].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -258,7 +261,7 @@ impl PackedConstraints {
     }
 
     /// Sets the share by which the target of the bend that `h` carries narrows, also where it carries none yet. Returns
-    /// whether it carries one and the share grew.
+    /// whether it carries one and the share grew noticeably.
     pub fn set_share(&mut self, ledger: &mut Ledger, topology: &Topology, h: HalfEdgeId, share: f32) -> bool {
         let before = ledger.share(h);
         ledger.set_share(h, share);
@@ -268,7 +271,7 @@ impl PackedConstraints {
             let region = self.region_index(topology, h);
             self.regions[region].set_share(lane, share);
         }
-        ledger.bends().has(h) && share > before
+        ledger.bends().has(h) && share > before + LEAST_WAKE
     }
 
     /// Narrows all targets.
