@@ -18,6 +18,7 @@ impl StainFields {
             streaks: _,
             revision: _,
             shown: _,
+            places: _,
             openness,
             open,
             duplicates,

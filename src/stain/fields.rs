@@ -3,7 +3,8 @@
 use bevy_math::Vec3;
 
 use super::{
-    catchments::Catchments, duplicates::Duplicates, dust::rates::DustRates, flow::Flow, layer::StainLayer, shown::Shown,
+    catchments::Catchments, duplicates::Duplicates, dust::rates::DustRates, flow::Flow, layer::StainLayer,
+    places::Places, shown::Shown,
 };
 use crate::film::FilmMesh;
 
@@ -88,7 +89,7 @@ pub struct StainFields {
     /// direction when the prop is turned later.
     pub streaks: Vec3,
     /// Counter that changes whenever stains look different, so that display needs to follow only then: something tore
-    /// or came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since the counter last did.
+    /// or came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since that was last looked at.
     pub revision: u32,
     /// Stains as they were when the revision last changed.
     pub(super) shown: Shown,
@@ -106,6 +107,8 @@ pub struct StainFields {
     pub(super) dust_rates: DustRates,
     /// Whether anything is wet or rain falls.
     pub(super) damp: bool,
+    /// Buffer of the places where something tore or came off; empty between steps.
+    pub(super) places: Places,
 }
 
 impl StainFields {
@@ -152,14 +155,9 @@ impl StainFields {
     /// Counts stains as changed if they look different from when they last did.
     pub(super) fn revise_if_seen(&mut self) {
         if self.shown.differs(&self.film, &self.metal, &self.corrosion, self.streaks) {
-            self.revise();
+            self.revision = self.revision.wrapping_add(1);
+            self.shown.note(&self.film, &self.metal, &self.corrosion, self.streaks);
         }
-    }
-
-    /// Counts stains as changed.
-    pub(super) fn revise(&mut self) {
-        self.revision = self.revision.wrapping_add(1);
-        self.shown.note(&self.film, &self.metal, &self.corrosion, self.streaks);
     }
 
     /// Returns the amount of wet rust on film and metal, in layers times square metres.

@@ -23,6 +23,7 @@ mod flow;
 mod layer;
 mod moisture;
 mod outflow;
+mod places;
 mod rust;
 mod shape;
 pub(crate) mod shown;

@@ -58,10 +58,12 @@ pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmCh
         TearEnd::Opened(v) | TearEnd::Split { kept: v, .. } => v,
     });
     let removed = changes.removed.iter().flat_map(|&f| topology.corners(f));
-    for v in torn.chain(removed) {
-        update_place(mesh, stains, topology.original(v));
-    }
-    stains.revise();
+    let mut places = std::mem::take(&mut stains.places);
+    torn.chain(removed).for_each(|v| places.touch(topology.original(v)));
+    places.take(|original| update_place(mesh, stains, original));
+    stains.places = places;
+    // What the stains look like need not be noted again: they are the same, on other faces.
+    stains.revision = stains.revision.wrapping_add(1);
 }
 
 impl StainFields {
