@@ -53,7 +53,7 @@ pub fn follow_free_edges(
     };
     let reach = settings.deform.curl_reach;
     let before = constraints.take_curl();
-    let known = before.filter(|field| field.is_of(grain, reach));
+    let known = before.filter(|field| field.is_of(mesh, grain, reach));
     let is_new = known.is_none();
     let mut field = known.unwrap_or_else(|| CurlField::new(mesh, grain, reach));
     field.begin(topology);

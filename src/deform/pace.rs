@@ -7,7 +7,7 @@ use bevy::reflect::prelude::ReflectDefault;
 const LEAST_SWEEPS: f32 = 1000.0;
 
 /// Largest momentum.
-const MOST_MOMENTUM: f32 = 0.999;
+const MOST_MOMENTUM: f32 = 0.9985;
 
 /// Quality of the solver: how many of the sweeps that are asked for are really done, and how.
 ///
@@ -102,7 +102,7 @@ impl SolvePace {
     /// The progress of wide curls goes with the number of sweeps times the fourth power of the edge, so that many
     /// sweeps are asked for: `sweeps_per_age` on a film whose mean edge is the grain, 16 times as many where it is half
     /// of it. Momentum pays for most of them: a film is swept more often than one whose mean edge is the grain only
-    /// where momentum would be above 0.999.
+    /// where momentum would be above 0.9985: they would ring on.
     pub fn of_grain_step(
         sweeps_per_age: f32,
         in_edges: f32,
