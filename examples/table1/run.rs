@@ -6,7 +6,7 @@ use bevy_coating::{
     appearance::{DisplayChanges, FilmAppearance},
     bake::{BakeError, BakeOptions, Coated, Images, Input, Resolution, coat},
     deform::{SimdLevel, SolverQuality, sweeps_of_step},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::{FilmState, Stage, StageTimes},
     stain::Environment,
 };
@@ -68,7 +68,7 @@ pub fn measure(model: &Loaded, args: &Args) -> Row {
 }
 
 fn run(model: &Loaded, args: &Args) -> Row {
-    let (settings, environment) = (CoatingSettings::default(), Environment::default());
+    let (settings, environment) = (CoatingSettings::from(Preset::Paper), Environment::default());
     let mut films = model.coated.films.clone();
     let mut shown: Vec<FilmAppearance> = (films.iter().zip(&model.coated.props))
         .map(|(film, prop)| FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))

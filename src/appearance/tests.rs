@@ -3,11 +3,16 @@
 use bevy_math::{Vec2, Vec3};
 
 use super::{face_slots::has_separated, *};
-use crate::{remesh::sample, settings::CoatingSettings, sim::FilmState, stain::Environment};
+use crate::{
+    remesh::sample,
+    settings::{CoatingSettings, Preset},
+    sim::FilmState,
+    stain::Environment,
+};
 
 fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
     let piece = sample::plate(600, 4).unwrap();
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.deform.sweeps_per_age = 2000.0;
     let mut film = FilmState::new(&piece.film, &settings, 4, 250).unwrap();
     let mut appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
@@ -78,7 +83,7 @@ fn each_slot_has_backs_and_metal_of_its_own_with_its_coordinates() {
     let slot =
         |t: &[u32; 3]| u32::from(t.iter().map(|&v| piece.film.positions[v as usize].x).sum::<f32>() > 3.0 * middle);
     piece.film.slots = piece.film.triangles.iter().map(slot).collect();
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut film = FilmState::new(&piece.film, &settings, 4, 100).unwrap();
     film.age_to(0.8, &settings, &Environment::default());
     let appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
@@ -150,7 +155,7 @@ fn arrays(appearance: &FilmAppearance) -> Vec<MeshPart> {
 #[test]
 fn recorded_changes_bring_an_appearance_to_where_a_new_one_begins() {
     let piece = sample::plate(300, 1).unwrap();
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
     let appearance =
         |film: &FilmState| FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
@@ -178,7 +183,7 @@ fn recorded_changes_bring_an_appearance_to_where_a_new_one_begins() {
 #[test]
 fn going_back_in_time_is_not_taken_for_standing_still() {
     let piece = sample::plate(300, 1).unwrap();
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut film = FilmState::new(&piece.film, &settings, 1, 100).unwrap();
     film.age_to(0.4, &settings, &Environment::default());
     let young = film.clone();
@@ -201,7 +206,7 @@ fn going_back_in_time_is_not_taken_for_standing_still() {
 fn a_prop_without_normals_gets_smooth_ones_where_it_is_smooth() {
     let piece = sample::curved_plate(400, 2).unwrap();
     let surface = Surface { normals: Vec::new(), ..piece.surface };
-    let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
+    let film = FilmState::new(&piece.film, &CoatingSettings::from(Preset::Paper), 0, 100).unwrap();
     let appearance = FilmAppearance::new(&piece.film, &surface, &film.mesh, &film.forces, &film.stains);
     let front = appearance.front(0).unwrap();
     for (p, n) in front.positions.iter().zip(&front.normals) {
@@ -214,7 +219,7 @@ fn a_prop_without_normals_gets_smooth_ones_where_it_is_smooth() {
 fn flipped_faces_are_wound_as_the_prop_was() {
     let mut piece = sample::plate(100, 2).unwrap();
     piece.film.flipped = vec![true; 100];
-    let film = FilmState::new(&piece.film, &CoatingSettings::default(), 0, 100).unwrap();
+    let film = FilmState::new(&piece.film, &CoatingSettings::from(Preset::Paper), 0, 100).unwrap();
     let appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
     let front = appearance.front(0).unwrap();
     for t in triangles(front) {

@@ -27,11 +27,15 @@ pub enum Preset {
     Gentle,
     /// Long neglect: most of the paint separated, cracked and curled.
     Heavy,
+    /// Ruin: most of the paint gone, shreds on bare metal.
+    Harsh,
+    /// The paper's rules and constants as printed, which count in triangles: for its figures and for comparison.
+    Paper,
 }
 
 impl Preset {
     /// Every preset, in the order of their names.
-    pub const ALL: [Self; 4] = [Self::Default, Self::FewCracks, Self::Gentle, Self::Heavy];
+    pub const ALL: [Self; 6] = [Self::Default, Self::FewCracks, Self::Gentle, Self::Harsh, Self::Heavy, Self::Paper];
 
     /// Returns the name by which files, programs and [`FromStr`] know the preset.
     pub const fn name(self) -> &'static str {
@@ -40,6 +44,8 @@ impl Preset {
             Self::FewCracks => "few_cracks",
             Self::Gentle => "gentle",
             Self::Heavy => "heavy",
+            Self::Harsh => "harsh",
+            Self::Paper => "paper",
         }
     }
 
@@ -50,6 +56,8 @@ impl Preset {
             Self::FewCracks => include_str!("../../assets/presets/few_cracks.coating.ron"),
             Self::Gentle => include_str!("../../assets/presets/gentle.coating.ron"),
             Self::Heavy => include_str!("../../assets/presets/heavy.coating.ron"),
+            Self::Harsh => include_str!("../../assets/presets/harsh.coating.ron"),
+            Self::Paper => include_str!("../../assets/presets/paper.coating.ron"),
         }
     }
 }

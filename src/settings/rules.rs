@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 /// use bevy_coating::settings::{CoatingSettings, Rules};
 ///
 /// let mut settings = CoatingSettings::default();
-/// settings.set("scale.rules", "grain")?;
 /// assert_eq!(settings.scale.rules, Rules::Grain);
+/// settings.set("scale.rules", "Paper")?;
+/// assert_eq!(settings.scale.rules, Rules::Paper);
 /// # Ok::<(), bevy_coating::settings::SettingsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -24,10 +25,10 @@ use serde::{Deserialize, Serialize};
 pub enum Rules {
     /// The paper's rules as printed, which count in edges and faces (VC 5): a finer film cracks more densely and curls
     /// less.
-    #[default]
     Paper,
     /// Rules that count in grains ([`ScaleSettings::grain`](super::ScaleSettings::grain)): films of any fineness crack
     /// and curl at one scale. Go beyond the paper.
+    #[default]
     Grain,
 }
 

@@ -14,7 +14,7 @@ macro_rules! with_stages {
             scale: ScaleSettings {
                 /// Rules by which fracture and curls are measured: the paper's, which count in triangles, or those that
                 /// count in grains. On a film under way a change acts on what becomes of it from then on.
-                rules: Rules = Rules::Paper, named(0.0, 1.0);
+                rules: Rules = Rules::Grain, named(0.0, 1.0);
                 /// Grain, in metres: the length by which [`Rules::Grain`] measures. Cracks lie several grains apart,
                 /// and a curl's radius is about 1.6 grains. On a film whose mean edge is the grain the paper's rules
                 /// give much the same. A film whose mean edge is more than two grains has a larger grain: half its mean

@@ -7,12 +7,18 @@ fn refusal(text: &str) -> SettingsError {
 /// A value that is in the setting's range, but not its default.
 fn another_value(field: &Field) -> f32 {
     let default = field.get(&CoatingSettings::default());
-    if field.range.whole { default + 1.0 } else { 0.5 * default + 0.011 }
+    if !field.names.is_empty() {
+        1.0 - default
+    } else if field.range.whole {
+        default + 1.0
+    } else {
+        0.5 * default + 0.011
+    }
 }
 
 #[test]
 fn defaults_are_those_of_the_method() {
-    let expected = "(scale:(rules:Paper,grain:0.028),\
+    let expected = "(scale:(rules:Grain,grain:0.028),\
         adhesion:(mean:2.1,deviation:0.7,octaves:2,frequency:5.0,wavelength:7.2,decay:1.0),\
         bending:(gain:0.33333334,gamma:2.0),\
         tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,relief:0.95,relief_reach:0.6,memory:1.8,\
@@ -228,16 +234,16 @@ fn every_preset_is_valid_and_round_trips() {
 }
 
 #[test]
-fn presets_are_those_of_the_method() {
+fn presets_change_what_they_say() {
     assert_eq!(CoatingSettings::preset("default").unwrap(), CoatingSettings::default());
     for (name, changes) in [
         (
             "few_cracks",
             &[
-                ("tearing.beta", "0.9"),
-                ("tearing.binding_decay", "5"),
-                ("tearing.weak_probability", "0.004"),
-                ("tearing.contraction_kept", "0.7"),
+                ("tearing.beta", "0.3"),
+                ("tearing.binding_decay", "2"),
+                ("tearing.weak_probability", "0.002"),
+                ("tearing.alpha", "0.6"),
             ][..],
         ),
         (
@@ -252,6 +258,16 @@ fn presets_are_those_of_the_method() {
         (
             "heavy",
             &[
+                ("adhesion.decay", "1.15"),
+                ("tearing.contraction_growth", "1.25"),
+                ("tearing.binding_decay", "1.45"),
+                ("adhesion.mean", "2"),
+                ("deform.bend_limit", "0.4"),
+            ],
+        ),
+        (
+            "harsh",
+            &[
                 ("adhesion.decay", "1.3"),
                 ("tearing.contraction_growth", "1.5"),
                 ("tearing.binding_decay", "1.6"),
@@ -259,6 +275,7 @@ fn presets_are_those_of_the_method() {
                 ("deform.bend_limit", "0.4"),
             ],
         ),
+        ("paper", &[("scale.rules", "Paper")]),
     ] {
         let mut expected = CoatingSettings::default();
         for (path, value) in changes {
@@ -267,7 +284,7 @@ fn presets_are_those_of_the_method() {
         assert_eq!(CoatingSettings::preset(name).unwrap(), expected, "{name}");
     }
     let unknown = CoatingSettings::preset("rusty").unwrap_err().to_string();
-    assert_eq!(unknown, "there is no preset `rusty`; there are default, few_cracks, gentle, heavy");
+    assert_eq!(unknown, "there is no preset `rusty`; there are default, few_cracks, gentle, harsh, heavy, paper");
 }
 
 #[test]

@@ -80,7 +80,7 @@ pub struct Args {
     /// Leave nodes, meshes and materials of this name as they are; * and ? stand for any characters; may be repeated
     #[arg(long, value_name = "NAME", allow_hyphen_values = true, value_parser = parse_pattern)]
     exclude: Vec<NamePattern>,
-    /// Settings: default, few_cracks, gentle, heavy, or a file that ends in .ron
+    /// Settings: default, few_cracks, gentle, harsh, heavy, paper, or a file that ends in .ron
     #[arg(long, value_name = "NAME|FILE.ron", default_value = "default")]
     preset: String,
     /// Change one setting, such as tearing.beta=0.3; may be repeated

@@ -6,7 +6,7 @@ use super::{Tearing, edge_between, lattice};
 use crate::{
     film::{FaceId, FilmMesh, VertexId, tests::grid},
     fracture::{aging::age_forces, forces::FilmForces},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
 };
 
 #[test]
@@ -23,7 +23,7 @@ fn a_fresh_film_that_follows_settings_is_one_that_was_made_with_them() {
         |settings| settings.tearing.weak_probability = 0.2,
         |settings| settings.tearing.weak_factor = 0.3,
     ];
-    let before = CoatingSettings::default();
+    let before = CoatingSettings::from(Preset::Paper);
     for (i, change) in changes.into_iter().enumerate() {
         let mut after = before.clone();
         change(&mut after);

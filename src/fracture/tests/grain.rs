@@ -8,7 +8,7 @@ use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, VertexId},
     fracture::{FilmForces, FractureScratch, age_forces, bending_force, separate, strip, tear, tearing::remember},
     remesh::sample,
-    settings::{CoatingSettings, Rules},
+    settings::{CoatingSettings, Preset, Rules},
 };
 
 fn by_grain(grain: f32) -> CoatingSettings {
@@ -61,7 +61,7 @@ fn films_of_any_fineness_crack_at_one_scale() {
     assert!((0.8..1.25).contains(&ratio), "cracks of {} and {}", coarse.length, fine.length);
     assert!((fine.separated - coarse.separated).abs() < 0.04);
     // What this is for.
-    let paper = CoatingSettings::default();
+    let paper = CoatingSettings::from(Preset::Paper);
     let ratio = cracks(3000, 6, &paper).length / cracks(750, 6, &paper).length;
     assert!(ratio > 2.0, "by the paper's rules cracks get longer by only {ratio}");
 }

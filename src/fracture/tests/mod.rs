@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, VertexId},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
 };
 
 /// Makes a hexagon of six equilateral triangles around vertex 0.
@@ -81,7 +81,7 @@ struct Tearing {
 
 impl Tearing {
     fn on(mesh: FilmMesh) -> Self {
-        let mut settings = CoatingSettings::default();
+        let mut settings = CoatingSettings::from(Preset::Paper);
         settings.tearing.weak_probability = 0.0;
         let mut forces = FilmForces::new(&mesh, &settings, 0);
         separate_all(&mut forces);
@@ -128,7 +128,7 @@ fn sigmoid_is_half_when_flat_and_grows_with_convexity() {
 #[test]
 fn a_flat_vertex_of_valence_six_feels_exactly_the_contraction() {
     let mesh = lattice(6);
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut forces = uniform_forces(&mesh, &settings);
     mesh.topology.all_faces().for_each(|f| forces.set_contraction(&mesh.topology, f, 1.7));
     let centre = VertexId(3 * 7 + 3);
@@ -138,7 +138,7 @@ fn a_flat_vertex_of_valence_six_feels_exactly_the_contraction() {
 
 #[test]
 fn border_and_torn_edges_push_nothing() {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     // All edges opposite the centre of a lone hexagon are borders.
     let mesh = hexagon();
     assert_eq!(bending_force(&mesh, &uniform_forces(&mesh, &settings), VertexId(0), 1.0), 0.0);
@@ -154,7 +154,7 @@ fn border_and_torn_edges_push_nothing() {
 #[test]
 fn adhesion_falls_at_its_rate_and_stops_at_zero() {
     let mesh = lattice(2);
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut forces = uniform_forces(&mesh, &settings);
     set_all_adhesion(&mesh, &mut forces, 0.25);
     age_forces(&mesh, &mut forces, &settings, &[], 0.1);
@@ -170,7 +170,7 @@ fn adhesion_falls_at_its_rate_and_stops_at_zero() {
 #[test]
 fn a_vertex_separates_once_at_the_age_of_the_closed_form() {
     let mesh = lattice(8);
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.tearing.weak_probability = 0.0;
     for (adhesion, decay, growth) in
         [(2.1, 1.0, 1.0), (1.0, 0.5, 0.0), (3.0, 1.5, 2.0), (0.5, 1.0, 1.0), (2.5, 0.0, 2.0)]
@@ -204,7 +204,7 @@ fn a_vertex_that_nothing_lifts_never_separates() {
 #[test]
 fn weak_edges_are_drawn_at_their_probability() {
     let mesh = lattice(100);
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let weak = |seed| {
         let forces = FilmForces::new(&mesh, &settings, seed);
         let inner = mesh.topology.all_edges().filter(|&h| mesh.topology.rest_twin(h).is_some());

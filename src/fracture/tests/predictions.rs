@@ -16,7 +16,7 @@ use crate::{
         tearing::{tear, tear_everywhere},
     },
     remesh::sample,
-    settings::{CoatingSettings, Rules},
+    settings::{CoatingSettings, Preset, Rules},
 };
 
 /// A film, and a second one of the same kind that discards its predictions now and then.
@@ -100,7 +100,7 @@ fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
         }
         // Back to the start, so that settings do not stay extreme.
         _ => {
-            *settings = CoatingSettings::default();
+            *settings = CoatingSettings::from(Preset::Paper);
             return;
         }
     };
@@ -169,7 +169,7 @@ proptest! {
         (dt, weak, binding) in (prop_oneof![Just(0.004f32), Just(0.02), 1e-5f32..0.05], 0.0f32..0.1, 2.0f32..7.0),
         events in prop::collection::vec(any_event(), 100..400),
     ) {
-        let mut settings = CoatingSettings::default();
+        let mut settings = CoatingSettings::from(Preset::Paper);
         settings.tearing.weak_probability = weak;
         settings.tearing.binding = binding;
         let mut film = Pair::new(mesh, &settings, seed);
@@ -222,7 +222,7 @@ fn judged_in_a_run(settings: &CoatingSettings, steps: u32) -> ([u64; 2], FilmFor
 #[test]
 fn work_depends_on_events_and_not_on_steps() {
     for steps in [1000, 10_000] {
-        let ([vertices, edges], forces, mesh) = judged_in_a_run(&CoatingSettings::default(), steps);
+        let ([vertices, edges], forces, mesh) = judged_in_a_run(&CoatingSettings::from(Preset::Paper), steps);
         assert!(forces.torn_edges > 100);
         let originals = mesh.topology.original_vertex_count() as u64;
         assert!(vertices < 3 * originals, "{vertices} judgements of {originals} vertices in {steps} steps");
@@ -234,7 +234,7 @@ fn work_depends_on_events_and_not_on_steps() {
 
 #[test]
 fn a_film_to_which_nothing_can_happen_is_judged_once() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.adhesion.mean = 50.0;
     let ([vertices, edges], _, mesh) = judged_in_a_run(&settings, 1000);
     let all = mesh.topology.original_vertex_count() as u64;
@@ -243,7 +243,7 @@ fn a_film_to_which_nothing_can_happen_is_judged_once() {
 
 #[test]
 fn infinite_forces_never_give_way() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.adhesion.mean = 0.0;
     settings.tearing.contraction = 50.0;
     let mesh = lattice(6);
@@ -264,7 +264,7 @@ fn infinite_forces_never_give_way() {
 /// prediction was rounded the wrong way.
 #[test]
 fn rounding_makes_no_event_late() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.tearing.weak_probability = 0.0;
     // In older films the amounts that are counted once for the whole film are larger.
     for (dt, age, wet) in [(1e-6, 0.0f32, false), (2e-7, 1.0, false), (2e-7, 8.0, true)] {

@@ -4,7 +4,7 @@ use super::{plate, quick};
 use crate::{
     deform::tests::draw::Draw,
     film::{FaceId, FilmMesh, HalfEdgeId, VertexId, tests::grid},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::state::FilmState,
     stain::Environment,
 };
@@ -60,7 +60,7 @@ fn every_face_can_be_stripped_one_after_the_other() {
 
 #[test]
 fn a_blow_looks_like_a_crack_and_reports_what_happened() {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let environment = Environment::default();
     let mut film = plate(300, 1, &settings, 100);
     let edge = film.mesh.topology.all_edges().find(|&h| film.mesh.topology.bound_twin(h).is_some()).unwrap();

@@ -6,7 +6,7 @@ use super::{plate, quick};
 use crate::{
     deform::{self, SimdLevel, SolvePace, SolverQuality, sweeps_and_momentum},
     film::{FilmMesh, VertexId, tests::sphere},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::{stage, state::FilmState},
     stain::Environment,
 };
@@ -21,7 +21,7 @@ fn bumpy() -> FilmMesh {
 
 #[test]
 fn every_level_gives_the_same_bits_through_steps_with_tearing() {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     for (mesh, seed) in [(plate(700, 3, &settings, 200).mesh, 3), (bumpy(), 4)] {
         let start = FilmState::from_mesh(mesh, &settings, seed, 200);
         let run = |level| {
@@ -48,7 +48,7 @@ fn every_level_gives_the_same_bits_through_steps_with_tearing() {
 
 /// Returns the lift at ages 0.5 and 1 and the strain at age 1, means over three seeds.
 fn lifts_and_strain(quality: SolverQuality) -> [f64; 3] {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut sums = [0.0; 3];
     let seeds = 1..=3;
     for seed in seeds.clone() {
@@ -125,7 +125,7 @@ fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
 
 #[test]
 fn sleep_changes_no_crack_and_little_shape() {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     for (mesh, seed) in [(plate(1500, 6, &settings, 1000).mesh, 6), (bumpy(), 7)] {
         let mut film = FilmState::from_mesh(mesh, &settings, seed, 1000);
         let mut awake = film.clone();
@@ -154,7 +154,7 @@ fn sleep_changes_no_crack_and_little_shape() {
 
 #[test]
 fn a_film_that_came_to_rest_sleeps_and_wakes_when_settings_change() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     // No cracks, little curl that is over soon: everything comes to rest.
     settings.tearing.weak_probability = 0.0;
     settings.adhesion.decay = 100.0;
@@ -182,7 +182,7 @@ fn a_film_that_came_to_rest_sleeps_and_wakes_when_settings_change() {
 #[test]
 fn a_film_whose_targets_do_not_narrow_sleeps() {
     for rate in [0.0, 1e-9] {
-        let mut settings = CoatingSettings::default();
+        let mut settings = CoatingSettings::from(Preset::Paper);
         settings.tearing.weak_probability = 0.0;
         settings.adhesion.decay = 100.0;
         settings.tearing.contraction_growth = 0.0;
@@ -197,7 +197,7 @@ fn a_film_whose_targets_do_not_narrow_sleeps() {
 
 #[test]
 fn quality_may_change_under_way() {
-    let settings = CoatingSettings::default();
+    let settings = CoatingSettings::from(Preset::Paper);
     let mut film = plate(400, 9, &settings, 200);
     for step in 0..200 {
         film.quality =
@@ -210,7 +210,7 @@ fn quality_may_change_under_way() {
 
 #[test]
 fn films_of_several_regions_hold_their_invariants() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     // Ages fast, so that a few steps see everything.
     settings.adhesion.decay = 4.0;
     settings.tearing.contraction_growth = 4.0;

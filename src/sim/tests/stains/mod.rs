@@ -11,14 +11,14 @@ use bevy_math::Vec3;
 use crate::{
     film::{FilmMesh, HalfEdgeId, VertexId},
     remesh::sample,
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::state::FilmState,
     stain::{Environment, RustSource, StainLayer},
 };
 
 /// Makes settings under which every vertex separates at once, and nothing tears or moves by itself.
 fn held() -> CoatingSettings {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.adhesion.mean = 0.0;
     settings.adhesion.deviation = 0.0;
     settings.tearing.binding = 1e6;

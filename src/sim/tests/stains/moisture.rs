@@ -52,7 +52,7 @@ fn it_dries_after_the_rain_and_then_nothing_is_left_to_do() {
 
 #[test]
 fn without_rain_moisture_changes_no_bit() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.deform.sweeps_per_age = 500.0;
     let run = |settings: &CoatingSettings| {
         let mut film = plate(600, settings, 100);
@@ -71,7 +71,7 @@ fn without_rain_moisture_changes_no_bit() {
 
 #[test]
 fn every_effect_can_be_switched_off() {
-    let mut dry = CoatingSettings::default();
+    let mut dry = CoatingSettings::from(Preset::Paper);
     dry.deform.sweeps_per_age = 500.0;
     (dry.moisture.adhesion, dry.moisture.emission, dry.moisture.travel) = (0.0, 0.0, 0.0);
     (dry.moisture.wash_dust, dry.moisture.wash_rust) = (0.0, 0.0);

@@ -91,7 +91,7 @@ fn nothing_bleeds_on_a_plate_perpendicular_to_gravity() {
 
 #[test]
 fn the_same_seed_stains_to_the_same_bits() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.deform.sweeps_per_age = 300.0;
     let environment = Environment { rain: Vec3::new(0.2, -0.5, -0.5), ..Environment::default() };
     let run = || {

@@ -12,7 +12,7 @@ fn revisions(film: &mut FilmState, settings: &CoatingSettings, environment: &Env
 
 #[test]
 fn saturated_stains_come_to_rest_and_fresh_ones_do_not() {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.deform.sweeps_per_age = 200.0;
     let dry = Environment::default();
     let mut film = plate(500, &settings, 100);
