@@ -143,7 +143,7 @@ pub mod surface;
 pub use api::{
     budget::CoatingBudget,
     clock::{CoatingClock, CoatingGravity, DEFAULT_AGE_PER_SECOND},
-    coating::{Coating, DEFAULT_TRIANGLES, SettingsSource},
+    coating::{Coating, SettingsSource},
     diagnostics,
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,

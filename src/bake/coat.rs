@@ -1,19 +1,19 @@
-//! Makes films of meshes, which share a budget of triangles.
+//! Makes films of meshes, which share triangles.
 
 use std::collections::BTreeMap;
 
 use bevy_math::Vec3;
 
 use super::{
-    error::{BakeError, BrokenFilm},
+    error::{BakeError, BrokenFilm, OptionsError},
     model::{ModelMesh, Place, Slot},
-    options::{BakeOptions, Resolution},
+    options::BakeOptions,
     parallel,
     warning::BakeWarning,
 };
 use crate::{
-    remesh::{self, BuiltFilm, FilmResolution, share_triangles},
-    sim::{FilmState, PathStep, film_seed},
+    remesh::{self, BuiltFilm, FilmTarget, film_targets},
+    sim::{FilmState, PathStep, coarser_than_grain, film_seed},
     surface::{BuildError, Surface},
 };
 
@@ -65,22 +65,19 @@ pub struct Coated {
 /// ```
 ///
 /// # Errors
-/// [`BakeError::Build`] if no film can be made of a mesh, [`BakeError::Broken`] if a film that came with a mesh is no
+/// [`BakeError::Options`] if the resolution is out of its range, [`BakeError::Build`] if no film can be made of a mesh,
+/// [`BakeError::Broken`] if a film that came with a mesh is no
 /// oriented manifold.
 pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Result<Coated, BakeError> {
+    options.resolution.validate().map_err(OptionsError::Resolution)?;
     let areas: Vec<f64> = meshes.iter().map(|mesh| mesh.surface.area()).collect();
-    let resolutions: Vec<FilmResolution> = match options.resolution {
-        Resolution::Keep => vec![FilmResolution::Keep; meshes.len()],
-        Resolution::Triangles(budget) => {
-            share_triangles(budget, &areas).into_iter().map(FilmResolution::Triangles).collect()
-        }
-    };
+    let targets = film_targets(options.resolution, options.settings.scale.grain, &areas);
     let seeds = film_seeds(options.seed, &meshes);
     let mut jobs: Vec<Job> = meshes
         .into_iter()
-        .zip(resolutions)
+        .zip(targets)
         .zip(seeds)
-        .map(|((mesh, resolution), seed)| Job { seed, mesh, resolution, result: None })
+        .map(|((mesh, target), seed)| Job { seed, mesh, target, result: None })
         .collect();
     parallel::for_each(&mut jobs, |job| job.run(options));
 
@@ -115,21 +112,23 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
 /// The build of one film.
 struct Job {
     mesh: ModelMesh,
-    resolution: FilmResolution,
+    target: FilmTarget,
     seed: u64,
     result: Option<Result<(BuiltFilm, Option<FilmState>), BuildError>>,
 }
 
 impl Job {
     fn run(&mut self, options: &BakeOptions) {
-        let built = match self.mesh.film.take() {
-            Some(film) => Ok(film),
-            None => remesh::build_film(&self.mesh.surface, self.resolution, self.seed),
-        };
-        self.result = Some(built.map(|built| {
+        let own = self.mesh.film.take();
+        let is_own = own.is_some();
+        let built = own.map_or_else(|| remesh::build_film(&self.mesh.surface, self.target, self.seed), Ok);
+        self.result = Some(built.map(|mut built| {
             let mut film = FilmState::new(&built, &options.settings, self.seed, options.steps);
             if let Some(film) = &mut film {
                 film.quality = options.quality;
+                // The resolution is not that of a film that came with its mesh.
+                let coarse = coarser_than_grain(&film.mesh, options.resolution, self.target, &options.settings.scale);
+                built.warnings.extend(coarse.filter(|_| !is_own));
             }
             (built, film)
         }));

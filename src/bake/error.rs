@@ -129,6 +129,9 @@ pub enum OptionsError {
         /// Texels along a side that were asked for.
         found: u32,
     },
+    /// [`BakeOptions::resolution`](super::BakeOptions::resolution) has a number out of its range.
+    #[error(transparent)]
+    Resolution(BuildError),
     /// A setting of the coating is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -91,7 +91,7 @@ pub use limits::{MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, TEXTURE_SIZES};
 pub use model::{Image, Instance, MaterialLibrary, Model, ModelMesh, Place, Slot};
 pub use name_pattern::NamePattern;
 pub use obj::ObjError;
-pub use options::{BakeOptions, Resolution};
+pub use options::BakeOptions;
 pub use output::StagedFiles;
 pub use printable::Printable;
 pub use progress::Progress;

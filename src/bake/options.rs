@@ -5,30 +5,15 @@ use super::{
     limits::{MAX_AGE, MAX_STEPS_PER_AGE},
     name_pattern::NamePattern,
 };
-use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
-
-/// How fine the films of a model are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Resolution {
-    /// About this many triangles for all films together, shared by area: 4 to [`MAX_TRIANGLES`](super::MAX_TRIANGLES).
-    Triangles(u32),
-    /// One face for each triangle of the meshes, after cleaning.
-    Keep,
-}
-
-impl Default for Resolution {
-    fn default() -> Self {
-        Self::Triangles(4000)
-    }
-}
+use crate::{deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment};
 
 /// Options of ageing.
 ///
 /// ```
-/// use bevy_coating::{bake::{BakeOptions, Resolution}, settings::CoatingSettings};
+/// use bevy_coating::{bake::BakeOptions, remesh::FilmResolution, settings::CoatingSettings};
 ///
 /// let options = BakeOptions {
-///     resolution: Resolution::Triangles(800),
+///     resolution: FilmResolution::Triangles(800),
 ///     settings: CoatingSettings::preset("heavy").unwrap_or_default(),
 ///     age: 0.6,
 ///     seed: 7,
@@ -39,8 +24,9 @@ impl Default for Resolution {
 /// ```
 #[derive(Clone, Debug)]
 pub struct BakeOptions {
-    /// How fine the films are; default 4,000 triangles for all of them together.
-    pub resolution: Resolution,
+    /// How fine the films are. Default: [`FilmResolution::default`], edges of 0.7 of the grain that the settings ask
+    /// for, and at most 16,000 triangles for all films together. Test pieces have films of their own.
+    pub resolution: FilmResolution,
     /// Settings of the coating.
     pub settings: CoatingSettings,
     /// Name of the settings in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`.
@@ -63,7 +49,7 @@ pub struct BakeOptions {
 impl Default for BakeOptions {
     fn default() -> Self {
         Self {
-            resolution: Resolution::default(),
+            resolution: FilmResolution::default(),
             settings: CoatingSettings::default(),
             preset: "default".into(),
             age: 1.0,
@@ -77,7 +63,7 @@ impl Default for BakeOptions {
 }
 
 impl BakeOptions {
-    /// Checks age, steps and settings against their ranges.
+    /// Checks age, steps, resolution and settings against their ranges.
     ///
     /// # Errors
     /// [`OptionsError`] for the first that is out of its range.
@@ -88,6 +74,7 @@ impl BakeOptions {
         if !(1..=MAX_STEPS_PER_AGE).contains(&self.steps) {
             return Err(OptionsError::Steps { found: self.steps });
         }
+        self.resolution.validate().map_err(OptionsError::Resolution)?;
         Ok(self.settings.validate()?)
     }
 }
