@@ -157,6 +157,7 @@ pub use api::{
     stain_display::StainDisplay,
     status::CoatingStatus,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
+    unit::CoatingUnit,
     weather::CoatingWeather,
 };
 #[cfg(feature = "plugin")]

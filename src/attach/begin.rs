@@ -222,9 +222,9 @@ fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candid
             commands.entity(slot).try_remove::<AwaitingFilm>().try_insert(claim);
         }
     }
-    let FilmInputs { key, scale, .. } = order.inputs;
+    let FilmInputs { key, scale, metres_per_unit, .. } = order.inputs;
     let seed = order.seed;
     let task = AsyncComputeTaskPool::get().spawn(build_film(order));
-    let build = FilmBuild { task, root, slots, key, seed, scale, area };
+    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area };
     commands.entity(film).try_insert((CoatedBy(root), build));
 }

@@ -39,8 +39,10 @@ pub(crate) struct FilmBuild {
     pub key: FilmKey,
     /// Seed of the film.
     pub seed: u64,
-    /// World scale of the film's entity.
+    /// Scale from the meshes to the film, which is in metres.
     pub scale: Vec3,
+    /// Metres that a unit of the world is long.
+    pub metres_per_unit: f32,
     /// Area of the meshes, in square metres.
     pub area: f64,
 }
@@ -72,7 +74,7 @@ pub(crate) struct FilmReadiness {
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
     let FilmOrder { inputs, target, seed, paint } = order;
-    let FilmInputs { meshes, key, settings, quality, scale, past, shelter } = inputs;
+    let FilmInputs { meshes, key, settings, quality, scale, past, shelter, .. } = inputs;
     let mut turn = Turn::begin();
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
@@ -145,6 +147,7 @@ mod tests {
             settings: settings.clone(),
             quality: SolverQuality::Default,
             scale: Vec3::ONE,
+            metres_per_unit: 1.0,
             past: Environment::default(),
             shelter: None,
         };

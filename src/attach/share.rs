@@ -10,7 +10,10 @@ use bevy::{
 
 use super::build::FilmBuild;
 use crate::{
-    api::links::{FilmSlot, FilmSource},
+    api::{
+        links::{FilmSlot, FilmSource},
+        unit::CoatingUnit,
+    },
     mesh_reader::area_of,
     remesh::{FilmResolution, FilmTarget, film_targets},
 };
@@ -19,11 +22,12 @@ use crate::{
 /// that cannot be read have none.
 pub(super) fn area_of_slots(world: &World, slots: &[Entity]) -> f64 {
     let assets = world.get_resource::<Assets<Mesh>>();
+    let metres = world.get_resource::<CoatingUnit>().copied().unwrap_or_default().metres;
     let area = |&slot: &Entity| {
         let own = world.get::<FilmSlot>(slot).map(|claim| &claim.original);
         let mesh = assets?.get(own.or(world.get::<Mesh3d>(slot).map(|mesh| &mesh.0))?)?;
         let scale = world.get::<GlobalTransform>(slot).map_or(Vec3::ONE, GlobalTransform::scale);
-        Some(area_of(mesh, scale))
+        Some(area_of(mesh, scale * metres))
     };
     slots.iter().filter_map(area).sum()
 }

@@ -4,7 +4,7 @@ use std::{io, path::PathBuf};
 
 use super::{
     gltf::GltfError,
-    limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES},
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES, UNITS},
     obj::ObjError,
 };
 use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
@@ -118,6 +118,12 @@ pub enum OptionsError {
     Steps {
         /// The number asked for.
         found: u32,
+    },
+    /// [`BakeOptions::metres_per_unit`](super::BakeOptions::metres_per_unit) is NaN or out of its range.
+    #[error("a unit is {found} metres long, not {} to {}", UNITS.start(), UNITS.end())]
+    Unit {
+        /// The length asked for, in metres.
+        found: f32,
     },
     /// Textures are smaller or larger than [`TEXTURE_SIZES`].
     #[error(

@@ -87,7 +87,7 @@ pub use error::{BakeError, BrokenFilm, OptionsError};
 pub use gltf::GltfError;
 pub use images::Images;
 pub use input::{Input, InputError, TestPiece};
-pub use limits::{MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, TEXTURE_SIZES};
+pub use limits::{MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, TEXTURE_SIZES, UNITS};
 pub use model::{Image, Instance, MaterialLibrary, Model, ModelMesh, Place, Slot};
 pub use name_pattern::NamePattern;
 pub use obj::ObjError;

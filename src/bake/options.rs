@@ -2,7 +2,7 @@
 
 use super::{
     error::OptionsError,
-    limits::{MAX_AGE, MAX_STEPS_PER_AGE},
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE, UNITS},
     name_pattern::NamePattern,
 };
 use crate::{deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment};
@@ -27,6 +27,10 @@ pub struct BakeOptions {
     /// How fine the films are. Default: [`FilmResolution::default`], edges of 0.7 of the grain that the settings ask
     /// for, and at most 16,000 triangles for all films together. Test pieces have films of their own.
     pub resolution: FilmResolution,
+    /// Metres that a unit of the model is long: 0.0001 to 10,000 ([`UNITS`]), default 1, as glTF has it. Films are in
+    /// metres, and so are all figures and rows; the aged model is in the model's own unit. Test pieces are in metres
+    /// anyway.
+    pub metres_per_unit: f32,
     /// Settings of the coating.
     pub settings: CoatingSettings,
     /// Name of the settings in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`.
@@ -50,6 +54,7 @@ impl Default for BakeOptions {
     fn default() -> Self {
         Self {
             resolution: FilmResolution::default(),
+            metres_per_unit: 1.0,
             settings: CoatingSettings::default(),
             preset: "default".into(),
             age: 1.0,
@@ -63,7 +68,7 @@ impl Default for BakeOptions {
 }
 
 impl BakeOptions {
-    /// Checks age, steps, resolution and settings against their ranges.
+    /// Checks age, steps, unit, resolution and settings against their ranges.
     ///
     /// # Errors
     /// [`OptionsError`] for the first that is out of its range.
@@ -73,6 +78,9 @@ impl BakeOptions {
         }
         if !(1..=MAX_STEPS_PER_AGE).contains(&self.steps) {
             return Err(OptionsError::Steps { found: self.steps });
+        }
+        if !UNITS.contains(&self.metres_per_unit) {
+            return Err(OptionsError::Unit { found: self.metres_per_unit });
         }
         self.resolution.validate().map_err(OptionsError::Resolution)?;
         Ok(self.settings.validate()?)

@@ -60,13 +60,13 @@ pub struct FilmStats {
     pub triangles: u64,
     /// Number of vertices.
     pub vertices: u64,
-    /// Mean length of the edges, each once, in scene units; `None` without any.
+    /// Mean length of the edges, each once, in metres; `None` without any.
     pub mean_edge: Option<f64>,
     /// Standard deviation of the edges' lengths (of the population) over their mean; `None` without any.
     pub edge_cv: Option<f64>,
     /// Smallest angle of any face, in degrees; `None` without any.
     pub min_angle_deg: Option<f64>,
-    /// Grain of each film, in scene units: longer than the one that was asked for where the film is too coarse for it.
+    /// Grain of each film, in metres: longer than the one that was asked for where the film is too coarse for it.
     /// Empty by the paper's rules, which have no grain.
     pub grain: Vec<f32>,
     /// Number of connected components.

@@ -21,8 +21,16 @@ fn square(uvs: [[f32; 2]; 4], slot: Slot) -> (Prop, FilmState) {
     };
     let built = build_film(&surface, FilmTarget::Triangles(200), 0).expect("a film");
     let film = FilmState::new(&built, &CoatingSettings::default(), 0, 100).expect("a film");
-    let prop =
-        Prop { name: "square".into(), surface, origin: Vec3::ZERO, slots: vec![slot], place: None, built, seed: 0 };
+    let prop = Prop {
+        name: "square".into(),
+        surface,
+        origin: Vec3::ZERO,
+        metres_per_unit: 1.0,
+        slots: vec![slot],
+        place: None,
+        built,
+        seed: 0,
+    };
     (prop, film)
 }
 

@@ -24,7 +24,7 @@ use crate::{
     Failure,
     values::{
         MAX_WIND, parse_age, parse_count, parse_edge, parse_glb, parse_gravity, parse_gusts, parse_pattern,
-        parse_quality, parse_set, parse_texture_size, parse_triangles, parse_vector,
+        parse_quality, parse_set, parse_texture_size, parse_triangles, parse_unit, parse_vector,
     },
 };
 
@@ -123,6 +123,9 @@ pub struct Args {
     /// Length of the edges of all films in metres; test pieces ignore it
     #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = parse_edge)]
     edge: Option<FilmResolution>,
+    /// Metres that a unit of the models is long; test pieces are in metres anyway
+    #[arg(long, value_name = "M", default_value = "1", allow_hyphen_values = true, value_parser = parse_unit)]
+    metres_per_unit: f32,
     /// Direction of gravity in scene space, of any length
     #[arg(
         long, value_name = "X,Y,Z", default_value = "0,-1,0", allow_hyphen_values = true,
@@ -195,6 +198,7 @@ impl Args {
         settings.validate()?;
         Ok(BakeOptions {
             resolution: self.resolution(),
+            metres_per_unit: self.metres_per_unit,
             settings,
             preset: self.preset.clone(),
             age: self.age,

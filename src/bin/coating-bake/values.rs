@@ -3,7 +3,7 @@
 use std::{convert::Infallible, ffi::OsString, path::PathBuf};
 
 use bevy_coating::{
-    bake::{MAX_AGE, MAX_TRIANGLES, NamePattern, TEXTURE_SIZES},
+    bake::{MAX_AGE, MAX_TRIANGLES, NamePattern, TEXTURE_SIZES, UNITS},
     deform::SolverQuality,
     remesh::FilmResolution,
 };
@@ -64,6 +64,12 @@ pub fn parse_count(text: &str) -> Result<u32, String> {
 pub fn parse_edge(text: &str) -> Result<FilmResolution, &'static str> {
     let edge = text.parse().ok().map(FilmResolution::EdgeLength).filter(|edge| edge.validate().is_ok());
     edge.ok_or("not a number of metres above 0")
+}
+
+/// A unit's length in its range.
+pub fn parse_unit(text: &str) -> Result<f32, String> {
+    let metres = text.parse().ok().filter(|metres| UNITS.contains(metres));
+    metres.ok_or_else(|| format!("not a number from {} to {}", UNITS.start(), UNITS.end()))
 }
 
 /// A size of textures in its range.
