@@ -12,7 +12,7 @@ use std::f32::consts::TAU;
 
 use bevy_coating::{
     film::FilmMesh,
-    remesh::{FilmResolution, build_film},
+    remesh::{FilmTarget, build_film},
     settings::CoatingSettings,
     sim::FilmState,
     surface::Surface,
@@ -50,19 +50,19 @@ fn torus(triangles: u32) -> Surface {
     }
 }
 
-fn build_of(bencher: Bencher, surface: &Surface, resolution: FilmResolution, triangles: u32) {
-    let make = || build_film(surface, resolution, 1).expect("a film");
+fn build_of(bencher: Bencher, surface: &Surface, target: FilmTarget, triangles: u32) {
+    let make = || build_film(surface, target, 1).expect("a film");
     bencher.counter(ItemsCount::new(triangles)).bench_local(make);
 }
 
 #[divan::bench(args = SIZES, sample_count = 5, sample_size = 1)]
 fn remesh(bencher: Bencher, triangles: u32) {
-    build_of(bencher, &torus(2 * triangles), FilmResolution::Triangles(triangles), triangles);
+    build_of(bencher, &torus(2 * triangles), FilmTarget::Triangles(triangles), triangles);
 }
 
 #[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]
 fn keep(bencher: Bencher, triangles: u32) {
-    build_of(bencher, &torus(triangles), FilmResolution::Keep, triangles);
+    build_of(bencher, &torus(triangles), FilmTarget::Keep, triangles);
 }
 
 #[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]

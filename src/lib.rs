@@ -143,7 +143,7 @@ pub mod surface;
 pub use api::{
     budget::CoatingBudget,
     clock::{CoatingClock, CoatingGravity, DEFAULT_AGE_PER_SECOND},
-    coating::{Coating, DEFAULT_TRIANGLES, SettingsSource},
+    coating::{Coating, SettingsSource},
     diagnostics,
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,
@@ -157,6 +157,7 @@ pub use api::{
     stain_display::StainDisplay,
     status::CoatingStatus,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
+    unit::CoatingUnit,
     weather::CoatingWeather,
 };
 #[cfg(feature = "plugin")]

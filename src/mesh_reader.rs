@@ -83,7 +83,7 @@ pub(crate) fn shape_of(mesh: &Mesh) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), Co
     Ok((positions.to_vec(), triangles_of(mesh, positions.len())?))
 }
 
-/// Returns the area of a mesh in the world, in square metres, under the world scale `scale`; 0 for a mesh that cannot
+/// Returns the area of a mesh in square metres, if `scale` leads from it to metres; 0 for a mesh that cannot
 /// be read.
 pub(crate) fn area_of(mesh: &Mesh, scale: Vec3) -> f64 {
     let Ok((positions, triangles)) = shape_of(mesh) else { return 0.0 };

@@ -16,6 +16,7 @@ use crate::{
         messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
         status::CoatingStatus,
         system_sets::CoatingAdvance,
+        unit::CoatingUnit,
         weather::CoatingWeather,
     },
     attach::add_attachment,
@@ -78,6 +79,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<CoatingBudget>()
             .init_resource::<CoatingGravity>()
             .init_resource::<CoatingWeather>()
+            .init_resource::<CoatingUnit>()
             .init_resource::<CoatingStatus>()
             .init_resource::<stepping::StepCost>()
             .init_resource::<stepping::ReachedPace>()

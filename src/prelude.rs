@@ -18,6 +18,7 @@ pub use crate::{
         stain_display::StainDisplay,
         status::CoatingStatus,
         system_sets::{CoatingStep, CoatingSystems},
+        unit::CoatingUnit,
         weather::CoatingWeather,
     },
     plugin::CoatingWeatheringPlugin,

@@ -3,14 +3,17 @@
 use crate::cli::Options;
 use crate::common_scene::bare::Piece;
 use crate::common_scene::graphics;
-use bevy_coating::bake::{BakeError, BakeOptions, Images, Input, Resolution};
+use bevy_coating::{
+    bake::{BakeError, BakeOptions, Images, Input},
+    remesh::FilmResolution,
+};
 use std::path::Path;
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
     let (preset, settings) = options.preset.clone();
     let bake = BakeOptions {
         // The plate has about half of the sign's surface.
-        resolution: Resolution::Triangles(options.triangles.saturating_mul(2)),
+        resolution: FilmResolution::Triangles(options.triangles.saturating_mul(2)),
         settings,
         preset,
         age: options.ages.iter().copied().fold(0.0, f64::max),

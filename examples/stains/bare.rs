@@ -5,7 +5,10 @@ use crate::common_scene::bare::Piece;
 use crate::pieces;
 use crate::stage;
 use crate::weather;
-use bevy_coating::bake::{BakeError, BakeOptions, Resolution};
+use bevy_coating::{
+    bake::{BakeError, BakeOptions},
+    remesh::FilmResolution,
+};
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
     let mut models = Vec::new();
@@ -13,7 +16,7 @@ pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
         // Nothing is known here of the roof.
         for row in theme.rows(options).into_iter().filter(|row| !row.roof) {
             let bake = BakeOptions {
-                resolution: Resolution::Triangles(options.triangles.saturating_mul(4)),
+                resolution: FilmResolution::Triangles(options.triangles.saturating_mul(4)),
                 preset: options.preset.0.clone(),
                 environment: weather::environment(&row),
                 settings: row.settings,

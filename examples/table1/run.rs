@@ -4,8 +4,9 @@ use std::time::{Duration, Instant};
 
 use bevy_coating::{
     appearance::{DisplayChanges, FilmAppearance},
-    bake::{BakeError, BakeOptions, Coated, Images, Input, Resolution, coat},
+    bake::{BakeError, BakeOptions, Coated, Images, Input, coat},
     deform::{SimdLevel, SolverQuality, sweeps_of_step},
+    remesh::FilmResolution,
     settings::{CoatingSettings, Preset},
     sim::{FilmState, Stage, StageTimes},
     stain::Environment,
@@ -50,7 +51,7 @@ pub const STAGES: [(Stage, &str); 5] = [
 pub fn load(input: &Input, args: &Args) -> Result<Loaded, BakeError> {
     let model = input.read(args.seed, Images::Skip)?;
     let options = BakeOptions {
-        resolution: Resolution::Keep,
+        resolution: FilmResolution::Keep,
         seed: args.seed,
         steps: args.steps,
         quality: args.quality,

@@ -15,9 +15,6 @@ use crate::{
     sim::DEFAULT_STEPS_PER_AGE,
 };
 
-/// Default number of triangles of a film.
-pub const DEFAULT_TRIANGLES: u32 = 4000;
-
 /// Paint that ages, on an entity with a [`Mesh3d`](bevy::mesh::Mesh3d) or on the root of a scene.
 ///
 /// On the root of a scene it coats every mesh below, also meshes that are spawned later, and shares its triangles
@@ -65,8 +62,12 @@ pub struct Coating {
     ///
     /// The meshes below one coating differ in any case: each varies the seed by the path of names that leads to it.
     pub seed: Option<u64>,
-    /// Resolution. Default: [`DEFAULT_TRIANGLES`] triangles, which all films of the coating share by area. An edge
-    /// length holds for each film.
+    /// Resolution of the films. Default: [`FilmResolution::default`], edges of 0.7 of the
+    /// [grain](crate::settings::ScaleSettings::grain) that the settings ask for, as long as all films of the coating
+    /// together have at most 16,000 triangles, which they share by area.
+    ///
+    /// The grain counts that is asked for when the film is built. If it is changed later, the film keeps its triangles,
+    /// and its cracks and curls are measured by the new grain at once.
     pub resolution: FilmResolution,
     /// Factor on the speed of the [clock](super::clock::CoatingClock). 0 to 1,000
     /// ([`MAX_RATE`](super::limits::MAX_RATE)), default 1. If it is set out of range while the film ages, a warning
@@ -104,7 +105,7 @@ impl Default for Coating {
         Self {
             settings: SettingsSource::default(),
             seed: None,
-            resolution: FilmResolution::Triangles(DEFAULT_TRIANGLES),
+            resolution: FilmResolution::default(),
             rate: 1.0,
             paused: false,
             start_age: 0.0,
@@ -163,12 +164,13 @@ impl Coating {
         Self { seed: Some(seed), ..self }
     }
 
-    /// Sets the [`resolution`](Self::resolution) to about `triangles` triangles. At least 4.
+    /// Sets the [`resolution`](Self::resolution) to about `triangles` triangles, at least 4, which all films of the
+    /// coating share by area.
     pub fn with_triangles(self, triangles: u32) -> Self {
         self.with_resolution(FilmResolution::Triangles(triangles))
     }
 
-    /// Sets the [`resolution`](Self::resolution) of each film.
+    /// Sets the [`resolution`](Self::resolution).
     ///
     /// ```
     /// use bevy_coating::{prelude::*, remesh::FilmResolution};
@@ -314,15 +316,18 @@ pub(crate) struct FilmKey {
 impl FilmKey {
     /// Returns everything that keys are compared by.
     fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32) {
-        let (resolution, length) = match self.resolution {
+        let (resolution, number) = match self.resolution {
             FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
+            FilmResolution::Grain { share, max_triangles } => {
+                (FilmResolution::Grain { share: 0.0, max_triangles }, share.to_bits())
+            }
             other => (other, 0),
         };
         let weather = self.past_weather.map(|weather| {
             let CoatingWeather { wind, gusts, rain, sun } = weather;
             [wind.x, wind.y, wind.z, gusts, rain.x, rain.y, rain.z, sun.x, sun.y, sun.z].map(f32::to_bits)
         });
-        (self.seed, resolution, length, self.start_age.to_bits(), weather, self.steps_per_age)
+        (self.seed, resolution, number, self.start_age.to_bits(), weather, self.steps_per_age)
     }
 }
 

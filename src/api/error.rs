@@ -97,6 +97,9 @@ pub enum CoatingFault {
     /// World scale of the prop that is zero or not finite along an axis: its x, y and z.
     #[error("its world scale is ({0}, {1}, {2}); no axis may be zero, NaN or infinite")]
     Scale(f32, f32, f32),
+    /// Unit of the world, [`CoatingUnit::metres`](super::unit::CoatingUnit::metres), that is NaN or out of its range.
+    #[error("`CoatingUnit::metres` is {0}, but must be 0.0001 to 10000")]
+    Unit(f32),
     /// Surface of which no film could be built.
     #[error(transparent)]
     Build(#[from] BuildError),

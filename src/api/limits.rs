@@ -20,7 +20,8 @@ impl Coating {
     /// The plugin does so before it builds a film. Settings of an asset are checked when they have loaded.
     ///
     /// # Errors
-    /// [`CoatingFault::Field`] or [`CoatingFault::Settings`] with the first value that is out of its range.
+    /// [`CoatingFault::Field`], [`CoatingFault::Build`] (the resolution) or [`CoatingFault::Settings`] with the first
+    /// value that is out of its range.
     ///
     /// ```
     /// use bevy_coating::prelude::*;
@@ -36,6 +37,7 @@ impl Coating {
         self.checked_rate()?;
         check_field("start_age", self.start_age, 0.0..=MAX_START_AGE, "0 to 10")?;
         check_field("steps_per_age", steps, 1.0..=most_steps, "1 to 100000")?;
+        self.resolution.validate()?;
         match &self.settings {
             SettingsSource::Inline(settings) => Ok(settings.validate()?),
             SettingsSource::Asset(_) => Ok(()),
@@ -61,7 +63,7 @@ fn check_field(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::CoatingSettings;
+    use crate::{remesh::FilmResolution, settings::CoatingSettings, surface::BuildError};
 
     #[test]
     fn fields_out_of_range_are_named() {
@@ -79,6 +81,17 @@ mod tests {
         let mut settings = CoatingSettings::default();
         settings.tearing.alpha = 7.0;
         assert!(matches!(Coating::new(settings).validate(), Err(CoatingFault::Settings(_))));
+    }
+
+    #[test]
+    fn resolutions_out_of_range_are_named() {
+        let grain = |share, max_triangles| FilmResolution::Grain { share, max_triangles };
+        let bad =
+            [grain(f32::NAN, 100), grain(0.05, 100), grain(2.1, 100), grain(0.7, 3), FilmResolution::Triangles(3)];
+        for resolution in bad {
+            let fault = Coating::default().with_resolution(resolution).validate();
+            assert!(matches!(fault, Err(CoatingFault::Build(BuildError::Resolution { .. }))), "{fault:?}");
+        }
     }
 
     #[test]

@@ -65,8 +65,11 @@ pub(crate) struct FilmSource {
     pub seed: u64,
     /// Entities whose meshes make up the film, by slot; [`Entity::PLACEHOLDER`] for a slot that has left the film.
     pub slots: Vec<Entity>,
-    /// World scale at which the film was built.
+    /// Scale from the mesh to the film, which is in metres: the world scale at which the film was built, times
+    /// [`metres_per_unit`](Self::metres_per_unit).
     pub scale: Vec3,
+    /// Metres that a unit of the world was long when the film was built.
+    pub metres_per_unit: f32,
     /// Point of the scaled mesh that is zero in the film's space: a position of the film is scale *
     /// position in the mesh - origin.
     pub origin: Vec3,
@@ -78,11 +81,17 @@ pub(crate) struct FilmSource {
     pub refused: Option<RefusedKey>,
 }
 
+/// Returns the place in the world of the scaled mesh at `transform`, which is in metres: it is rotated and moved, and
+/// shrunk or enlarged where the world has another unit, but its world scale is applied already.
+pub(crate) fn place_of(transform: &GlobalTransform, metres_per_unit: f32) -> Affine3A {
+    let (_, rotation, translation) = transform.to_scale_rotation_translation();
+    Affine3A::from_scale_rotation_translation(Vec3::splat(1.0 / metres_per_unit), rotation, translation)
+}
+
 impl FilmSource {
-    /// Returns the film's space in the world, which is rotated and moved, but not scaled.
+    /// Returns the film's space in the world.
     pub fn place(&self, transform: &GlobalTransform) -> Affine3A {
-        let (_, rotation, translation) = transform.to_scale_rotation_translation();
-        Affine3A::from_rotation_translation(rotation, translation + rotation * self.origin)
+        place_of(transform, self.metres_per_unit) * Affine3A::from_translation(self.origin)
     }
 
     /// Returns the slots that are part of the film.
@@ -157,6 +166,8 @@ pub(crate) struct Suspects {
     pub settings: (Option<AssetId<CoatingSettings>>, Vec<u32>),
     /// World scale of the entity.
     pub scale: [u32; 3],
+    /// Metres that a unit of the world is long.
+    pub unit: u32,
 }
 
 /// Link from a mesh entity to its film, which is being built or ready. The clone of an entity is linked to the film of

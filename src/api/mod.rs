@@ -22,4 +22,5 @@ pub(crate) mod stain_display;
 pub(crate) mod status;
 pub(crate) mod step_account;
 pub(crate) mod system_sets;
+pub(crate) mod unit;
 pub(crate) mod weather;

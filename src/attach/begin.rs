@@ -22,7 +22,7 @@ use super::{
     group::group_of,
     hierarchy::path_to,
     order::{FilmInputs, inputs_of},
-    share::{area_of_film, area_of_slots, share},
+    share::{area_of_film, area_of_slots, targets_of},
     suspects::suspects_of,
 };
 use crate::{
@@ -34,7 +34,6 @@ use crate::{
         seed::CoatingSeed,
     },
     display::FilmPaint,
-    remesh::FilmResolution,
     sim::{film_seed, place_seed},
 };
 
@@ -47,8 +46,6 @@ struct Candidate {
     film: Entity,
     /// Entities whose meshes make up the film, by slot.
     slots: Vec<Entity>,
-    /// Area of the meshes, if it is known.
-    area: Option<f64>,
     /// Whether the film replaces an older one.
     renews: bool,
 }
@@ -72,21 +69,20 @@ pub(super) fn begin_builds(
         let Some(coating) = world.get::<Coating>(root) else { continue };
         let meshes: Vec<Entity> = group.iter().filter_map(|&(_, mesh)| mesh).collect();
         let meshes = leave_glass_alone(world, &mut commands, root, meshes);
-        if is_shared(coating) && meshes.iter().any(|&mesh| is_loading(world, mesh)) {
+        if coating.resolution.is_shared() && meshes.iter().any(|&mesh| is_loading(world, mesh)) {
             // The shares are known when all meshes are.
             continue;
         }
         let mut candidates = group_meshes(world, root, &meshes);
-        candidates.extend(outdated.iter().filter(|(_, coated_by, _)| coated_by.0 == root).map(|(film, _, source)| {
-            Candidate { film, slots: source.live_slots().collect(), area: Some(source.area), renews: true }
-        }));
+        candidates.extend(
+            outdated.iter().filter(|(_, coated_by, _)| coated_by.0 == root).map(|(film, _, source)| Candidate {
+                film,
+                slots: source.live_slots().collect(),
+                renews: true,
+            }),
+        );
         begin_films(world, &mut commands, root, coating, candidates, &films, &refused);
     }
-}
-
-/// Returns whether the films of `coating` share its triangles.
-fn is_shared(coating: &Coating) -> bool {
-    matches!(coating.resolution, FilmResolution::Triangles(_))
 }
 
 /// Returns whether the mesh asset of `entity` is being loaded.
@@ -141,7 +137,7 @@ fn group_meshes(world: &World, root: Entity, meshes: &[Entity]) -> Vec<Candidate
             done.extend(&slots);
             done.sort_unstable();
         }
-        candidates.push(Candidate { film, slots, area: None, renews: false });
+        candidates.push(Candidate { film, slots, renews: false });
     }
     candidates
 }
@@ -166,22 +162,22 @@ fn begin_films(
             }
         }
     }
-    if found.iter().all(|(_, inputs)| inputs.is_none()) {
-        return;
-    }
+    // The settings of all films of a coating are the same.
+    let settings = found.iter().find_map(|(_, inputs)| inputs.as_ref()).map(|inputs| inputs.settings.clone());
+    let Some(settings) = settings else { return };
     // Meshes that still wait for something count, so that shares do not depend on the order in which assets arrive.
-    let areas: Vec<f64> = found.iter().map(|(candidate, _)| area_of(world, coating, candidate)).collect();
+    let areas: Vec<f64> = found.iter().map(|(candidate, _)| area_of_slots(world, &candidate.slots)).collect();
     let others = films.iter().filter(|(film, coated_by, ..)| {
         coated_by.0 == root && !found.iter().any(|(candidate, _)| candidate.film == *film)
     });
     let others: Vec<f64> = others.filter_map(|(.., source, build)| area_of_film(source, build)).collect();
-    let resolutions = share(coating.resolution, &areas, &others);
+    let targets = targets_of(coating.resolution, settings.scale.grain, &areas, &others);
     let base = coating.seed.unwrap_or_else(|| seed_of_place(world, commands, root));
-    for (((candidate, inputs), resolution), area) in found.into_iter().zip(resolutions).zip(areas) {
+    for (((candidate, inputs), target), area) in found.into_iter().zip(targets).zip(areas) {
         let Some(inputs) = inputs else { continue };
         let seed = film_seed(base, &path_to(world, root, candidate.film));
         let paint = FilmPaint::new(coating, seed, Vec3::ZERO);
-        let order = FilmOrder { inputs, resolution, seed, paint };
+        let order = FilmOrder { inputs, target, seed, paint };
         begin(world, commands, root, candidate, order, area);
     }
 }
@@ -201,15 +197,6 @@ fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &C
         }
     }
     inputs_of(world, candidate.film, root, &candidate.slots, coating)
-}
-
-/// Returns the area of a film that shares its coating's triangles.
-fn area_of(world: &World, coating: &Coating, candidate: &Candidate) -> f64 {
-    match candidate.area {
-        Some(area) => area,
-        None if is_shared(coating) => area_of_slots(world, &candidate.slots),
-        None => 0.0,
-    }
 }
 
 /// Returns the seed that was drawn for the coating on `root`, or draws it from its place.
@@ -235,9 +222,9 @@ fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candid
             commands.entity(slot).try_remove::<AwaitingFilm>().try_insert(claim);
         }
     }
-    let FilmInputs { key, scale, .. } = order.inputs;
+    let FilmInputs { key, scale, metres_per_unit, .. } = order.inputs;
     let seed = order.seed;
     let task = AsyncComputeTaskPool::get().spawn(build_film(order));
-    let build = FilmBuild { task, root, slots, key, seed, scale, area };
+    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area };
     commands.entity(film).try_insert((CoatedBy(root), build));
 }

@@ -14,10 +14,10 @@ use crate::{
     api::{coating::FilmKey, error::CoatingFault},
     display::{FilmDisplay, FilmPaint},
     mesh_reader::surface_of,
-    remesh::{FilmResolution, build_film as remesh},
+    remesh::{FilmTarget, build_film as remesh},
     settings::CoatingSettings,
     shelter::{CastOrder, FilmShelter},
-    sim::FilmState,
+    sim::{FilmState, coarser_than_grain},
     stain::exposure::ExposedSurface,
     surface::{BuildError, BuildWarning},
 };
@@ -39,17 +39,19 @@ pub(crate) struct FilmBuild {
     pub key: FilmKey,
     /// Seed of the film.
     pub seed: u64,
-    /// World scale of the film's entity.
+    /// Scale from the meshes to the film, which is in metres.
     pub scale: Vec3,
-    /// Area of the meshes; 0 if the coating's films do not share its triangles.
+    /// Metres that a unit of the world is long.
+    pub metres_per_unit: f32,
+    /// Area of the meshes, in square metres.
     pub area: f64,
 }
 
 /// Inputs of a build.
 pub(super) struct FilmOrder {
     pub inputs: FilmInputs,
-    /// Resolution of this film: its share of the coating's triangles.
-    pub resolution: FilmResolution,
+    /// Target of remeshing, from the coating's resolution.
+    pub target: FilmTarget,
     pub seed: u64,
     pub paint: FilmPaint,
 }
@@ -71,18 +73,19 @@ pub(crate) struct FilmReadiness {
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
-    let FilmOrder { inputs, resolution, seed, paint } = order;
-    let FilmInputs { meshes, key, settings, quality, scale, past, shelter } = inputs;
+    let FilmOrder { inputs, target, seed, paint } = order;
+    let FilmInputs { meshes, key, settings, quality, scale, past, shelter, .. } = inputs;
     let mut turn = Turn::begin();
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
     let origin = surface.recentre();
     turn.rest().await;
-    let built = remesh(&surface, resolution, seed)?;
+    let mut built = remesh(&surface, target, seed)?;
     turn.rest().await;
     let mut film = FilmState::new(&built, &settings, seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
     film.quality = quality;
+    built.warnings.extend(coarser_than_grain(&film.mesh, key.resolution, target, &settings.scale));
     turn.rest().await;
     let mut display = FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint);
     turn.rest().await;
@@ -144,11 +147,12 @@ mod tests {
             settings: settings.clone(),
             quality: SolverQuality::Default,
             scale: Vec3::ONE,
+            metres_per_unit: 1.0,
             past: Environment::default(),
             shelter: None,
         };
         let paint = FilmPaint::new(&coating, 0, Vec3::ZERO);
-        FilmOrder { inputs, resolution: FilmResolution::Triangles(500), seed: 0, paint }
+        FilmOrder { inputs, target: FilmTarget::Triangles(500), seed: 0, paint }
     }
 
     #[test]

@@ -94,7 +94,7 @@ fn put_on(
     let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
     // A rate that has gone out of range meanwhile is told before the first step.
     let _ = pace.follow(coating);
-    pace.bounds = crate::stepping::bounds(&mesh.geometry, origin);
+    pace.bounds = crate::stepping::bounds(&mesh.geometry, origin, build.metres_per_unit);
     shelter.choice = coating.shelter;
     let handles = display.put_on(assets);
     for (&slot, handle) in build.slots.iter().zip(handles) {
@@ -104,9 +104,10 @@ fn put_on(
         let claim = FilmSlot { display_mesh: Some(handle.clone()), ..claim.clone() };
         commands.entity(slot).try_remove::<FilmRefused>().try_insert((Mesh3d(handle), claim));
     }
-    let FilmBuild { root, key, seed, scale, area, .. } = *build;
+    let FilmBuild { root, key, seed, scale, metres_per_unit, area, .. } = *build;
     let slots = std::mem::take(&mut build.slots);
-    let source = FilmSource { key, seed, slots, scale, origin, area, hidden: Vec::new(), refused: None };
+    let source =
+        FilmSource { key, seed, slots, scale, metres_per_unit, origin, area, hidden: Vec::new(), refused: None };
     commands
         .entity(film)
         .try_remove::<FilmBuild>()

@@ -8,7 +8,7 @@ use bevy::{
         reflect::AppTypeRegistry,
         world::{EntityRef, World},
     },
-    math::{Affine3A, Vec3},
+    math::Vec3,
     mesh::{Mesh, Mesh3d, skinning::SkinnedMesh},
     transform::components::GlobalTransform,
 };
@@ -21,8 +21,9 @@ use crate::{
         clock::CoatingGravity,
         coating::{Coating, FilmKey, SettingsSource},
         error::CoatingFault,
-        links::FilmSlot,
+        links::{FilmSlot, place_of},
         shelter::Shelter,
+        unit::CoatingUnit,
         weather::CoatingWeather,
     },
     deform::SolverQuality,
@@ -37,7 +38,10 @@ pub(super) struct FilmInputs {
     pub key: FilmKey,
     pub settings: Arc<CoatingSettings>,
     pub quality: SolverQuality,
+    /// Scale from the meshes to the film, which is in metres.
     pub scale: Vec3,
+    /// Metres that a unit of the world is long.
+    pub metres_per_unit: f32,
     /// Gravity and weather of the film's past.
     pub past: Environment,
     /// Meshes that may shelter the film; `None` without rain and sun, or if the coating does not ask for shelters.
@@ -74,6 +78,7 @@ pub(super) fn inputs_of(
     if !scale.is_finite() || scale.min_element() == 0.0 || scale.x * scale.y * scale.z == 0.0 {
         return Err(CoatingFault::Scale(scale.x, scale.y, scale.z));
     }
+    let metres_per_unit = world.get_resource::<CoatingUnit>().copied().unwrap_or_default().checked()?;
     let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
     let today = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
     let past = coating.key().past_weather.unwrap_or_default();
@@ -84,8 +89,7 @@ pub(super) fn inputs_of(
         && cast_for.reaches_anything()
         && let Some(scene) = world.get_resource::<ShelterScene>()
     {
-        let (_, rotation, translation) = transform.to_scale_rotation_translation();
-        let place = Affine3A::from_rotation_translation(rotation, translation);
+        let place = place_of(&transform, metres_per_unit);
         shelter = scene.order(&cast_for.environment(gravity, &transform), place, root, slots);
         if shelter.is_none() {
             return Ok(None);
@@ -96,7 +100,8 @@ pub(super) fn inputs_of(
         key: coating.key(),
         settings,
         quality: coating.quality,
-        scale,
+        scale: scale * metres_per_unit,
+        metres_per_unit,
         past: past.environment(gravity, &transform),
         shelter,
     }))

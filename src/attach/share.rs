@@ -1,4 +1,4 @@
-//! Shares the triangles of a coating between its films.
+//! Finds the target of each film of a coating, which share its triangles.
 
 use bevy::{
     asset::Assets,
@@ -10,18 +10,24 @@ use bevy::{
 
 use super::build::FilmBuild;
 use crate::{
-    api::links::FilmSource,
+    api::{
+        links::{FilmSlot, FilmSource},
+        unit::CoatingUnit,
+    },
     mesh_reader::area_of,
-    remesh::{FilmResolution, share_triangles},
+    remesh::{FilmResolution, FilmTarget, film_targets},
 };
 
-/// Returns the area of the meshes of `slots` in the world, in square metres. Meshes that cannot be read have none.
+/// Returns the area of the own meshes of `slots` in the world, in square metres, also while they show a film. Meshes
+/// that cannot be read have none.
 pub(super) fn area_of_slots(world: &World, slots: &[Entity]) -> f64 {
     let assets = world.get_resource::<Assets<Mesh>>();
+    let metres = world.get_resource::<CoatingUnit>().copied().unwrap_or_default().metres;
     let area = |&slot: &Entity| {
-        let mesh = assets?.get(&world.get::<Mesh3d>(slot)?.0)?;
+        let own = world.get::<FilmSlot>(slot).map(|claim| &claim.original);
+        let mesh = assets?.get(own.or(world.get::<Mesh3d>(slot).map(|mesh| &mesh.0))?)?;
         let scale = world.get::<GlobalTransform>(slot).map_or(Vec3::ONE, GlobalTransform::scale);
-        Some(area_of(mesh, scale))
+        Some(area_of(mesh, scale * metres))
     };
     slots.iter().filter_map(area).sum()
 }
@@ -31,17 +37,10 @@ pub(super) fn area_of_film(source: Option<&FilmSource>, build: Option<&FilmBuild
     source.map(|source| source.area).or(build.map(|build| build.area))
 }
 
-/// Returns the resolution of each film of area `new`, if a coating asks for `resolution` and has films of the areas
-/// `others` besides.
-pub(super) fn share(resolution: FilmResolution, new: &[f64], others: &[f64]) -> Vec<FilmResolution> {
-    match resolution {
-        FilmResolution::Triangles(budget) => {
-            let areas = [new, others].concat();
-            let shares = share_triangles(budget, &areas).into_iter();
-            // A budget that cannot be met is told as such, not as the least share of it.
-            let told = |share| FilmResolution::Triangles(if budget < 4 { budget } else { share });
-            shares.take(new.len()).map(told).collect()
-        }
-        other => vec![other; new.len()],
-    }
+/// Returns the target of each film of area `new`, if a coating asks for `resolution`, its settings for `grain`, and it
+/// has films of the areas `others` besides.
+pub(super) fn targets_of(resolution: FilmResolution, grain: f32, new: &[f64], others: &[f64]) -> Vec<FilmTarget> {
+    let mut targets = film_targets(resolution, grain, &[new, others].concat());
+    targets.truncate(new.len());
+    targets
 }

@@ -11,6 +11,7 @@ use crate::{
     api::{
         coating::{Coating, SettingsSource},
         links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, LeftAlone, Suspects},
+        unit::CoatingUnit,
     },
     settings::CoatingSettings,
 };
@@ -31,6 +32,7 @@ pub(super) fn suspects_of(world: &World, entity: Entity, root: Entity) -> Option
         coating: (coating.key(), coating.stain_display, coating.shelter, valid),
         settings: bits_of(&coating.settings),
         scale: scale.to_array().map(f32::to_bits),
+        unit: world.get_resource::<CoatingUnit>().copied().unwrap_or_default().metres.to_bits(),
     })
 }
 

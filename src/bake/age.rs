@@ -55,7 +55,7 @@ pub fn bake(
 
     stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
-    let film = FilmStats::of(&films);
+    let film = FilmStats::of(&films, &options.settings.scale);
     let timeline = age(&mut films, options, &mut stopwatch, progress);
     for (film, prop) in films.iter().zip(&props) {
         film.validate().map_err(|cause| BakeError::Broken {

@@ -1,19 +1,19 @@
-//! Makes films of meshes, which share a budget of triangles.
+//! Makes films of meshes, which share triangles.
 
 use std::collections::BTreeMap;
 
-use bevy_math::Vec3;
+use bevy_math::{DMat4, DVec3, Vec3};
 
 use super::{
     error::{BakeError, BrokenFilm},
     model::{ModelMesh, Place, Slot},
-    options::{BakeOptions, Resolution},
+    options::BakeOptions,
     parallel,
     warning::BakeWarning,
 };
 use crate::{
-    remesh::{self, BuiltFilm, FilmResolution, share_triangles},
-    sim::{FilmState, PathStep, film_seed},
+    remesh::{self, BuiltFilm, FilmTarget, film_targets},
+    sim::{FilmState, PathStep, coarser_than_grain, film_seed},
     surface::{BuildError, Surface},
 };
 
@@ -22,13 +22,15 @@ use crate::{
 pub struct Prop {
     /// Name of the node or mesh.
     pub name: String,
-    /// The prop's own surface, around [`Self::origin`].
+    /// The prop's own surface in metres, around [`Self::origin`].
     pub surface: Surface,
-    /// Place in the scene where the surface's zero lies.
+    /// Place in the scene where the surface's zero lies, in metres.
     pub origin: Vec3,
+    /// Metres that a unit of the scene is long.
+    pub metres_per_unit: f32,
     /// Attributes and material of each slot of the surface.
     pub slots: Vec<Slot>,
-    /// Place in the document that the model was read from.
+    /// Place in the document that the model was read from, with its transform into the scene in metres.
     pub place: Option<Place>,
     /// The film at rest.
     pub built: BuiltFilm,
@@ -65,28 +67,27 @@ pub struct Coated {
 /// ```
 ///
 /// # Errors
-/// [`BakeError::Build`] if no film can be made of a mesh, [`BakeError::Broken`] if a film that came with a mesh is no
+/// [`BakeError::Options`] if an option is out of its range, [`BakeError::Build`] if no film can be made of a mesh,
+/// [`BakeError::Broken`] if a film that came with a mesh is no
 /// oriented manifold.
 pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Result<Coated, BakeError> {
+    options.validate()?;
+    let mut meshes = meshes;
+    meshes.iter_mut().for_each(|mesh| into_metres(mesh, unit_of(mesh, options)));
     let areas: Vec<f64> = meshes.iter().map(|mesh| mesh.surface.area()).collect();
-    let resolutions: Vec<FilmResolution> = match options.resolution {
-        Resolution::Keep => vec![FilmResolution::Keep; meshes.len()],
-        Resolution::Triangles(budget) => {
-            share_triangles(budget, &areas).into_iter().map(FilmResolution::Triangles).collect()
-        }
-    };
+    let targets = film_targets(options.resolution, options.settings.scale.grain, &areas);
     let seeds = film_seeds(options.seed, &meshes);
     let mut jobs: Vec<Job> = meshes
         .into_iter()
-        .zip(resolutions)
+        .zip(targets)
         .zip(seeds)
-        .map(|((mesh, resolution), seed)| Job { seed, mesh, resolution, result: None })
+        .map(|((mesh, target), seed)| Job { unit: unit_of(&mesh, options), seed, mesh, target, result: None })
         .collect();
     parallel::for_each(&mut jobs, |job| job.run(options));
 
     let mut coated = Coated::default();
     let mut nothing = None;
-    for Job { mesh, result, seed, .. } in jobs {
+    for Job { mesh, result, seed, unit, .. } in jobs {
         let ModelMesh { name, surface, origin: at, slots, place, .. } = mesh;
         let broken = |source| BakeError::Broken { origin: origin.into(), mesh: name.clone(), source };
         match result {
@@ -94,7 +95,7 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
                 let warnings = built.warnings.iter().cloned();
                 coated.warnings.extend(warnings.map(|warning| BakeWarning::Build { mesh: name.clone(), warning }));
                 coated.films.push(film.ok_or_else(|| broken(BrokenFilm::NotManifold))?);
-                coated.props.push(Prop { name, surface, origin: at, slots, place, built, seed });
+                coated.props.push(Prop { name, surface, origin: at, metres_per_unit: unit, slots, place, built, seed });
             }
             Some(Err(
                 source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. } | BuildError::Size { .. }),
@@ -112,24 +113,44 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
     }
 }
 
+/// Returns the metres that a unit of the mesh is long. Films that come with their meshes are in metres.
+fn unit_of(mesh: &ModelMesh, options: &BakeOptions) -> f32 {
+    if mesh.film.is_some() { 1.0 } else { options.metres_per_unit }
+}
+
+/// Scales a mesh whose unit is `unit` metres long.
+fn into_metres(mesh: &mut ModelMesh, unit: f32) {
+    if unit == 1.0 {
+        return;
+    }
+    mesh.surface.positions.iter_mut().for_each(|position| *position *= unit);
+    mesh.origin *= unit;
+    if let Some(place) = &mut mesh.place {
+        place.transform = DMat4::from_scale(DVec3::splat(unit.into())) * place.transform;
+    }
+}
+
 /// The build of one film.
 struct Job {
     mesh: ModelMesh,
-    resolution: FilmResolution,
+    target: FilmTarget,
+    unit: f32,
     seed: u64,
     result: Option<Result<(BuiltFilm, Option<FilmState>), BuildError>>,
 }
 
 impl Job {
     fn run(&mut self, options: &BakeOptions) {
-        let built = match self.mesh.film.take() {
-            Some(film) => Ok(film),
-            None => remesh::build_film(&self.mesh.surface, self.resolution, self.seed),
-        };
-        self.result = Some(built.map(|built| {
+        let own = self.mesh.film.take();
+        let is_own = own.is_some();
+        let built = own.map_or_else(|| remesh::build_film(&self.mesh.surface, self.target, self.seed), Ok);
+        self.result = Some(built.map(|mut built| {
             let mut film = FilmState::new(&built, &options.settings, self.seed, options.steps);
             if let Some(film) = &mut film {
                 film.quality = options.quality;
+                // The resolution is not that of a film that came with its mesh.
+                let coarse = coarser_than_grain(&film.mesh, options.resolution, self.target, &options.settings.scale);
+                built.warnings.extend(coarse.filter(|_| !is_own));
             }
             (built, film)
         }));

@@ -4,7 +4,7 @@ use std::{io, path::PathBuf};
 
 use super::{
     gltf::GltfError,
-    limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES},
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES, UNITS},
     obj::ObjError,
 };
 use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
@@ -119,6 +119,12 @@ pub enum OptionsError {
         /// The number asked for.
         found: u32,
     },
+    /// [`BakeOptions::metres_per_unit`](super::BakeOptions::metres_per_unit) is NaN or out of its range.
+    #[error("a unit is {found} metres long, not {} to {}", UNITS.start(), UNITS.end())]
+    Unit {
+        /// The length asked for, in metres.
+        found: f32,
+    },
     /// Textures are smaller or larger than [`TEXTURE_SIZES`].
     #[error(
         "the size of textures is {found} texels, not a number from {} to {}",
@@ -129,6 +135,9 @@ pub enum OptionsError {
         /// Texels along a side that were asked for.
         found: u32,
     },
+    /// [`BakeOptions::resolution`](super::BakeOptions::resolution) has a number out of its range.
+    #[error(transparent)]
+    Resolution(BuildError),
     /// A setting of the coating is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),

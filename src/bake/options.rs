@@ -2,33 +2,18 @@
 
 use super::{
     error::OptionsError,
-    limits::{MAX_AGE, MAX_STEPS_PER_AGE},
+    limits::{MAX_AGE, MAX_STEPS_PER_AGE, UNITS},
     name_pattern::NamePattern,
 };
-use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
-
-/// How fine the films of a model are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Resolution {
-    /// About this many triangles for all films together, shared by area: 4 to [`MAX_TRIANGLES`](super::MAX_TRIANGLES).
-    Triangles(u32),
-    /// One face for each triangle of the meshes, after cleaning.
-    Keep,
-}
-
-impl Default for Resolution {
-    fn default() -> Self {
-        Self::Triangles(4000)
-    }
-}
+use crate::{deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment};
 
 /// Options of ageing.
 ///
 /// ```
-/// use bevy_coating::{bake::{BakeOptions, Resolution}, settings::CoatingSettings};
+/// use bevy_coating::{bake::BakeOptions, remesh::FilmResolution, settings::CoatingSettings};
 ///
 /// let options = BakeOptions {
-///     resolution: Resolution::Triangles(800),
+///     resolution: FilmResolution::Triangles(800),
 ///     settings: CoatingSettings::preset("heavy").unwrap_or_default(),
 ///     age: 0.6,
 ///     seed: 7,
@@ -39,8 +24,13 @@ impl Default for Resolution {
 /// ```
 #[derive(Clone, Debug)]
 pub struct BakeOptions {
-    /// How fine the films are; default 4,000 triangles for all of them together.
-    pub resolution: Resolution,
+    /// How fine the films are. Default: [`FilmResolution::default`], edges of 0.7 of the grain that the settings ask
+    /// for, and at most 16,000 triangles for all films together. Test pieces have films of their own.
+    pub resolution: FilmResolution,
+    /// Metres that a unit of the model is long: 0.0001 to 10,000 ([`UNITS`]), default 1, as glTF has it. Films are in
+    /// metres, and so are all figures and rows; the aged model is in the model's own unit. Test pieces are in metres
+    /// anyway.
+    pub metres_per_unit: f32,
     /// Settings of the coating.
     pub settings: CoatingSettings,
     /// Name of the settings in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`.
@@ -63,7 +53,8 @@ pub struct BakeOptions {
 impl Default for BakeOptions {
     fn default() -> Self {
         Self {
-            resolution: Resolution::default(),
+            resolution: FilmResolution::default(),
+            metres_per_unit: 1.0,
             settings: CoatingSettings::default(),
             preset: "default".into(),
             age: 1.0,
@@ -77,7 +68,7 @@ impl Default for BakeOptions {
 }
 
 impl BakeOptions {
-    /// Checks age, steps and settings against their ranges.
+    /// Checks age, steps, unit, resolution and settings against their ranges.
     ///
     /// # Errors
     /// [`OptionsError`] for the first that is out of its range.
@@ -88,6 +79,10 @@ impl BakeOptions {
         if !(1..=MAX_STEPS_PER_AGE).contains(&self.steps) {
             return Err(OptionsError::Steps { found: self.steps });
         }
+        if !UNITS.contains(&self.metres_per_unit) {
+            return Err(OptionsError::Unit { found: self.metres_per_unit });
+        }
+        self.resolution.validate().map_err(OptionsError::Resolution)?;
         Ok(self.settings.validate()?)
     }
 }

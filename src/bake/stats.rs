@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{model::ModelMesh, stopwatch::Seconds};
 use crate::{
     film::{FaceId, HalfEdgeId},
+    settings::ScaleSettings,
     sim::{FilmMeasures, FilmState},
 };
 
@@ -59,12 +60,15 @@ pub struct FilmStats {
     pub triangles: u64,
     /// Number of vertices.
     pub vertices: u64,
-    /// Mean length of the edges, each once, in scene units; `None` without any.
+    /// Mean length of the edges, each once, in metres; `None` without any.
     pub mean_edge: Option<f64>,
     /// Standard deviation of the edges' lengths (of the population) over their mean; `None` without any.
     pub edge_cv: Option<f64>,
     /// Smallest angle of any face, in degrees; `None` without any.
     pub min_angle_deg: Option<f64>,
+    /// Grain of each film, in metres: longer than the one that was asked for where the film is too coarse for it.
+    /// Empty by the paper's rules, which have no grain.
+    pub grain: Vec<f32>,
     /// Number of connected components.
     pub components: u64,
     /// Number of loops of border edges.
@@ -112,8 +116,9 @@ impl InputStats {
 
 impl FilmStats {
     /// Measures films, as they were at rest whatever their age.
-    pub(super) fn of(films: &[FilmState]) -> Self {
-        let mut stats = Self::default();
+    pub(super) fn of(films: &[FilmState], scale: &ScaleSettings) -> Self {
+        let grains = films.iter().filter_map(|film| scale.grain_of(&film.mesh.geometry));
+        let mut stats = Self { grain: grains.map(|grain| grain.length).collect(), ..Self::default() };
         let (mut sum, mut squares, mut edges) = (0.0f64, 0.0f64, 0u64);
         let mut least_angle = f64::INFINITY;
         for film in films {

@@ -40,7 +40,8 @@ pub const ATTRIBUTE_REST: MeshVertexAttribute =
 pub const ATTRIBUTE_REST_NORMAL: MeshVertexAttribute =
     MeshVertexAttribute::new("Coating_RestNormal", 0x636f_6174_6e6f_726d, VertexFormat::Float32x3);
 
-/// Transform from the film's space, which has the prop's world scale applied, to the space of the prop's mesh.
+/// Transform from the film's space, which has the prop's world scale applied and is in metres, to the space of the
+/// prop's mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PartSpace {
     scale: Vec3,
@@ -53,7 +54,8 @@ pub(super) struct PartSpace {
 }
 
 impl PartSpace {
-    /// Returns the transform for a prop of world scale `scale`, whose film has its zero at `origin` of the scaled mesh.
+    /// Returns the transform for a prop that was scaled by `scale`, whose film has its zero at `origin` of the scaled
+    /// mesh.
     pub fn new(scale: Vec3, origin: Vec3) -> Self {
         Self {
             scale,

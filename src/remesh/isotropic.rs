@@ -17,10 +17,10 @@ use super::{
     polish,
     reference::Reference,
     relax::{self, Relaxation},
-    resolution::{Target, count_of_edge, edge_of_area},
     sites,
     sizing::LEAST_PART,
     split::{self, SplitLimits},
+    target::{FilmTarget, count_of_edge, edge_of_area},
     work_mesh::{WorkMesh, quality},
 };
 use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
@@ -71,21 +71,22 @@ const NEEDLE: f32 = 0.1;
 /// Largest share of needles in the film's area that facets may force on it.
 const MOST_NEEDLES: f64 = 0.25;
 
-/// Remeshes the surface. Where features or topology do not allow a film as coarse as asked for, it is finer and has a
-/// warning.
+/// Remeshes the surface, or keeps its triangles if the target says so. Where features or topology do not allow a film
+/// as coarse as asked for, it is finer and has a warning.
 ///
 /// # Errors
 /// [`BuildError::TooLarge`] only.
 pub(super) fn remesh(
     surface: &Surface,
     clean: &CleanSurface,
-    target: Target,
+    target: FilmTarget,
     seed: u64,
 ) -> Result<BuiltFilm, BuildError> {
     let area = area_of(clean);
     let (count, length) = match target {
-        Target::Count(n) => (f64::from(n), edge_of_area(area / f64::from(n))),
-        Target::Length(l) => (count_of_edge(area, l), l),
+        FilmTarget::Triangles(n) => (f64::from(n), edge_of_area(area / f64::from(n))),
+        FilmTarget::EdgeLength(l) => (count_of_edge(area, l), l),
+        FilmTarget::Keep => return sites::keep(surface, clean),
     };
     if count > MAX_FILM_TRIANGLES as f64 {
         return Err(BuildError::TooLarge { found: count as usize, limit: MAX_FILM_TRIANGLES });
@@ -126,10 +127,7 @@ pub(super) fn remesh(
         }
         break (film, reference.sizing.starved);
     };
-    let tolerance = match target {
-        Target::Count(_) => COUNT_TOLERANCE,
-        Target::Length(_) => LENGTH_TOLERANCE,
-    };
+    let tolerance = if is_count(target) { COUNT_TOLERANCE } else { LENGTH_TOLERANCE };
     let found = film.triangles.len();
     let target = count as u32;
     if found as f64 > count * (1.0 + tolerance) {
@@ -165,12 +163,13 @@ fn asks_too_much(mesh: &WorkMesh, count: f64, fidelity: Fidelity) -> bool {
     thin > MOST_NEEDLES * all
 }
 
-fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut ChaCha8Rng) {
+fn is_count(target: FilmTarget) -> bool {
+    matches!(target, FilmTarget::Triangles(_))
+}
+
+fn run(mesh: &mut WorkMesh, target: FilmTarget, length: f32, count: f64, rng: &mut ChaCha8Rng) {
     // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
-    let mut edge = match target {
-        Target::Count(_) => length,
-        Target::Length(_) => length / SETTLED,
-    };
+    let mut edge = if is_count(target) { length } else { length / SETTLED };
     let most = (MOST_WHILE_SPLITTING * count) as usize + mesh.topology.live_faces();
     for round in 0..ROUNDS {
         // In the first rounds the edges are still too long or too short to judge bends by them.
@@ -180,7 +179,7 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
         collapse::collapse_short_edges(mesh, limits(edge));
         flip::flip_edges(mesh);
         relax(mesh, edge, JITTER * edge, rng);
-        if let Target::Count(_) = target {
+        if is_count(target) {
             let ratio = (mesh.topology.live_faces() as f64 / count).sqrt() as f32;
             edge = (edge * ratio).clamp(length / ADJUSTMENT, length * ADJUSTMENT);
         }
@@ -191,7 +190,7 @@ fn run(mesh: &mut WorkMesh, target: Target, length: f32, count: f64, rng: &mut C
         flip::flip_edges(mesh);
     }
     let mut fewest_faces = 4;
-    if let Target::Count(count) = target {
+    if let FilmTarget::Triangles(count) = target {
         meet_count(mesh, edge, CollapseLimits { fewest_faces: count as usize, ..limits(edge) }, rng);
         fewest_faces = (count as usize).saturating_sub(count as usize / 100).max(4);
     }

@@ -27,31 +27,33 @@ mod share;
 mod sites;
 mod sizing;
 mod split;
+mod target;
 #[cfg(test)]
 mod tests;
 mod topology;
 mod work_mesh;
 
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
-pub use resolution::FilmResolution;
-pub use share::{LEAST_TRIANGLES, share_triangles};
+pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
+pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
+pub use target::FilmTarget;
 
 use crate::surface::{BuildError, Surface, clean};
 use frame::Frame;
 
-/// Builds the film of a surface: cleans the surface, remeshes it to the resolution (or keeps its triangles), and finds
+/// Builds the film of a surface: cleans the surface, remeshes it to the target (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.
 ///
-/// The seed draws the irregularity of the triangles. The same surface, resolution and seed give the same film, to the
+/// The seed draws the irregularity of the triangles. The same surface, target and seed give the same film, to the
 /// bit.
 ///
 /// # Errors
 /// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
 /// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a
-/// resolution out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
+/// target out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
-/// use bevy_coating::{film::FilmMesh, remesh::{FilmResolution, build_film}, surface::Surface};
+/// use bevy_coating::{film::FilmMesh, remesh::{FilmTarget, build_film}, surface::Surface};
 /// use bevy_math::Vec3;
 ///
 /// // A unit square of two triangles becomes a film of about a hundred.
@@ -60,7 +62,7 @@ use frame::Frame;
 ///     triangles: vec![[0, 1, 2], [0, 2, 3]],
 ///     ..Surface::default()
 /// };
-/// let film = build_film(&square, FilmResolution::Triangles(100), 7)?;
+/// let film = build_film(&square, FilmTarget::Triangles(100), 7)?;
 /// assert!((80..120).contains(&film.triangles.len()));
 /// assert_eq!(film.sites.len(), 3 * film.triangles.len());
 ///
@@ -68,15 +70,11 @@ use frame::Frame;
 /// assert!((mesh.geometry.rest_area - 1.0).abs() < 1e-4);
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
-pub fn build_film(surface: &Surface, resolution: FilmResolution, seed: u64) -> Result<BuiltFilm, BuildError> {
-    let target = resolution.target()?;
+pub fn build_film(surface: &Surface, target: FilmTarget, seed: u64) -> Result<BuiltFilm, BuildError> {
+    target.validate()?;
     let frame = Frame::of(surface)?;
     let moved = frame.enter(surface);
     let surface = moved.as_ref().unwrap_or(surface);
     let clean = clean(surface)?;
-    let film = match target {
-        Some(target) => isotropic::remesh(surface, &clean, target, seed),
-        None => sites::keep(surface, &clean),
-    };
-    frame.leave(film?)
+    frame.leave(isotropic::remesh(surface, &clean, target, seed)?)
 }

@@ -1,4 +1,9 @@
-//! Shares a budget of triangles between the films of one prop.
+//! Finds the target of each film of a coating, and shares triangles between them.
+
+use super::{
+    resolution::FilmResolution,
+    target::{FilmTarget, count_of_edge},
+};
 
 /// Fewest triangles of a film, however small its share of the surface is.
 pub const LEAST_TRIANGLES: u32 = 12;
@@ -39,9 +44,52 @@ pub fn share_triangles(budget: u32, areas: &[f64]) -> Vec<u32> {
     shares
 }
 
+/// Returns the target of each film of a coating that asks for `resolution`, given the grain that its settings ask for,
+/// in metres, and the area of each film, in square metres. Areas that are negative or NaN count as 0.
+///
+/// [`FilmResolution::Grain`] becomes an edge length, and where the films would have too many triangles together, each
+/// one's share of them. Films have at least [`LEAST_TRIANGLES`] triangles in either case. Resolutions out of their
+/// ranges become targets that [`build_film`](super::build_film) refuses.
+///
+/// ```
+/// use bevy_coating::remesh::{FilmResolution, FilmTarget, film_targets};
+///
+/// let resolution = FilmResolution::Grain { share: 0.5, max_triangles: 4000 };
+/// // A square metre in edges of 5 cm takes 924 triangles, and in edges of 2 cm 5,774.
+/// assert_eq!(film_targets(resolution, 0.1, &[1.0]), [FilmTarget::EdgeLength(0.05)]);
+/// assert_eq!(film_targets(resolution, 0.04, &[0.75, 0.25]), [3000, 1000].map(FilmTarget::Triangles));
+/// ```
+pub fn film_targets(resolution: FilmResolution, grain: f32, areas: &[f64]) -> Vec<FilmTarget> {
+    let shared = |budget| {
+        let shares = share_triangles(budget, areas).into_iter();
+        // A budget that cannot be met is told as such, not as the least share of it.
+        shares.map(|share| FilmTarget::Triangles(if budget < 4 { budget } else { share })).collect()
+    };
+    match resolution {
+        FilmResolution::Grain { share, max_triangles } => {
+            let edge = share * grain;
+            let least = f64::from(LEAST_TRIANGLES);
+            // Neither a negative area nor NaN is above the least.
+            let count = |&area: &f64| count_of_edge(area, edge).max(least);
+            if areas.iter().map(count).sum::<f64>() > f64::from(max_triangles) || max_triangles < 4 {
+                return shared(max_triangles);
+            }
+            let few = |area| count(area) <= least;
+            let target =
+                |area| if few(area) { FilmTarget::Triangles(LEAST_TRIANGLES) } else { FilmTarget::EdgeLength(edge) };
+            areas.iter().map(target).collect()
+        }
+        FilmResolution::Triangles(budget) => shared(budget),
+        FilmResolution::EdgeLength(length) => vec![FilmTarget::EdgeLength(length); areas.len()],
+        FilmResolution::Keep => vec![FilmTarget::Keep; areas.len()],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const GRAIN: FilmResolution = FilmResolution::Grain { share: 0.5, max_triangles: 1000 };
 
     #[test]
     fn the_budget_is_shared_by_area_with_a_minimum() {
@@ -61,5 +109,56 @@ mod tests {
         let sum: u32 = shares.iter().sum();
         assert!(sum.abs_diff(40_000) <= 100, "{sum}");
         assert!(shares.iter().all(|&share| share >= LEAST_TRIANGLES));
+    }
+
+    #[test]
+    fn the_edge_follows_the_grain_up_to_the_budget() {
+        // 0.5 x 0.1 m: 924 triangles a square metre.
+        assert_eq!(film_targets(GRAIN, 0.1, &[0.5, 0.5]), [FilmTarget::EdgeLength(0.05); 2]);
+        assert_eq!(film_targets(GRAIN, 0.1, &[0.6, 0.6]), [FilmTarget::Triangles(500); 2]);
+        assert_eq!(film_targets(GRAIN, 0.01, &[7.0]), [FilmTarget::Triangles(1000)]);
+        assert_eq!(film_targets(GRAIN, 0.1, &[]), []);
+    }
+
+    #[test]
+    fn small_films_have_the_least_number_of_triangles() {
+        let targets = film_targets(GRAIN, 0.1, &[0.5, 1e-4, f64::NAN, -1.0]);
+        let least = FilmTarget::Triangles(LEAST_TRIANGLES);
+        assert_eq!(targets, [FilmTarget::EdgeLength(0.05), least, least, least]);
+        // A hundred bolts exceed the budget by themselves.
+        assert_eq!(film_targets(GRAIN, 0.1, &[1e-4; 100]), vec![least; 100]);
+    }
+
+    #[test]
+    fn other_resolutions_know_no_grain() {
+        for grain in [0.01, 1.0, f32::NAN] {
+            let of = |resolution| film_targets(resolution, grain, &[3.0, 1.0]);
+            assert_eq!(of(FilmResolution::Triangles(4000)), [3000, 1000].map(FilmTarget::Triangles));
+            assert_eq!(of(FilmResolution::EdgeLength(0.1)), [FilmTarget::EdgeLength(0.1); 2]);
+            assert_eq!(of(FilmResolution::Keep), [FilmTarget::Keep; 2]);
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_becomes_a_target_that_is_refused() {
+        let refused = [
+            FilmResolution::Triangles(3),
+            FilmResolution::EdgeLength(f32::NAN),
+            FilmResolution::Grain { share: 0.7, max_triangles: 3 },
+            FilmResolution::Grain { share: f32::NAN, max_triangles: 1000 },
+            FilmResolution::Grain { share: 0.0, max_triangles: 1000 },
+            FilmResolution::Grain { share: -0.7, max_triangles: 1000 },
+            FilmResolution::Grain { share: 2.1, max_triangles: 1000 },
+        ];
+        for resolution in refused {
+            assert!(resolution.validate().is_err(), "{resolution:?}");
+        }
+        for resolution in &refused[..3] {
+            let targets = film_targets(*resolution, 0.1, &[1.0, 1.0]);
+            assert!(targets.iter().all(|target| target.validate().is_err()), "{targets:?}");
+        }
+        for share in [0.1, 0.7, 2.0] {
+            assert_eq!(FilmResolution::Grain { share, max_triangles: 4 }.validate(), Ok(()));
+        }
     }
 }

@@ -8,7 +8,7 @@ use bevy_math::Vec3;
 
 use super::chains::{Chains, NO_CHAIN};
 use super::features::Scale;
-use super::resolution::{count_of_edge, edge_of_area};
+use super::target::{count_of_edge, edge_of_area};
 use super::topology::Topology;
 use crate::film::HalfEdgeId;
 

@@ -8,7 +8,7 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::topology::Topology;
-use super::{BuiltFilm, FilmResolution, build_film, clean};
+use super::{BuiltFilm, FilmTarget, build_film, clean};
 use crate::{
     film::{FaceId, VertexId},
     surface::{BuildError, BuildWarning, Surface},
@@ -64,9 +64,9 @@ fn at_corner<T: Copy + std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T
     values(t) * site.weights.x + values(t + 1) * site.weights.y + values(t + 2) * site.weights.z
 }
 
-/// Builds and checks what must hold for any surface and resolution.
-fn checked(surface: &Surface, resolution: FilmResolution, seed: u64) -> BuiltFilm {
-    let film = build_film(surface, resolution, seed).expect("a film");
+/// Builds and checks what must hold for any surface and target.
+fn checked(surface: &Surface, target: FilmTarget, seed: u64) -> BuiltFilm {
+    let film = build_film(surface, target, seed).expect("a film");
     let cleaned = clean(surface).expect("a clean surface");
     let faces = film.triangles.len();
     assert_eq!((film.slots.len(), film.flipped.len(), film.sites.len()), (faces, faces, 3 * faces));
@@ -176,7 +176,7 @@ fn append(surface: &mut Surface, other: &Surface, offset: Vec3) {
 fn sphere_is_closed_even_and_round() {
     // Without texture: its coordinates jump at every spoke of the poles, which the film would have to follow.
     let surface = Surface { uvs: Vec::new(), ..sphere(60) };
-    let film = checked(&surface, FilmResolution::Triangles(1500), 3);
+    let film = checked(&surface, FilmTarget::Triangles(1500), 3);
     assert!((1425..=1575).contains(&film.triangles.len()), "{} triangles", film.triangles.len());
     assert_eq!(film.warnings.iter().filter(|w| matches!(w, BuildWarning::FeaturesDenserThanTarget { .. })).count(), 0);
     let mut lengths = Vec::new();
@@ -197,7 +197,7 @@ fn sphere_is_closed_even_and_round() {
 fn faces_at_a_seam_stay_on_their_side() {
     for n in [6, 40] {
         let surface = sphere(n);
-        let film = checked(&surface, FilmResolution::Triangles(2000), 1);
+        let film = checked(&surface, FilmTarget::Triangles(2000), 1);
         for face in 0..film.triangles.len() {
             let u = [0, 1, 2].map(|k| at_corner(&film, 3 * face + k, |i| surface.uvs[i]).x);
             let poles = film.triangles[face].iter().any(|&v| film.positions[v as usize].z.abs() > 0.9);
@@ -211,7 +211,7 @@ fn faces_at_a_seam_stay_on_their_side() {
 #[test]
 fn low_poly_faces_lie_on_single_facets() {
     let surface = bevelled_box(Vec3::new(2.0, 0.7, 0.5), 0.1, 3);
-    let film = checked(&surface, FilmResolution::Triangles(3000), 7);
+    let film = checked(&surface, FilmTarget::Triangles(3000), 7);
     assert!((2850..=3150).contains(&film.triangles.len()), "{} triangles", film.triangles.len());
     assert!((area(&film.positions, &film.triangles) / area(&surface.positions, &surface.triangles) - 1.0).abs() < 1e-4);
     for face in 0..film.triangles.len() {
@@ -251,7 +251,7 @@ fn borders_and_slot_borders_keep_their_length() {
         .iter()
         .map(|t| u32::from(t.iter().all(|&v| surface.positions[v as usize].x <= 0.5)))
         .collect();
-    let film = checked(&surface, FilmResolution::Triangles(900), 2);
+    let film = checked(&surface, FilmTarget::Triangles(900), 2);
     let before = feature_lengths(&surface.positions, &surface.triangles, &surface.slots);
     let after = feature_lengths(&film.positions, &film.triangles, &film.slots);
     for (before, after) in before.into_iter().zip(after) {
@@ -264,7 +264,7 @@ fn borders_and_slot_borders_keep_their_length() {
 fn flat_quads_show_no_grid() {
     let mut surface = Surface::default();
     grid(&mut surface, [1, 1], |p| p.extend(0.0), |p| p);
-    let film = checked(&surface, FilmResolution::Triangles(2000), 5);
+    let film = checked(&surface, FilmTarget::Triangles(2000), 5);
     let mut sum = Vec2::ZERO;
     for t in &film.triangles {
         for k in 0..3 {
@@ -279,7 +279,7 @@ fn flat_quads_show_no_grid() {
 #[test]
 fn the_same_seed_gives_the_same_bits() {
     let surface = bevelled_box(Vec3::new(1.0, 0.7, 0.5), 0.1, 2);
-    let build = |seed| build_film(&surface, FilmResolution::Triangles(1000), seed).expect("a film");
+    let build = |seed| build_film(&surface, FilmTarget::Triangles(1000), seed).expect("a film");
     let (a, b, other) = (build(4), build(4), build(5));
     let bits =
         |film: &BuiltFilm| film.positions.iter().flat_map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
@@ -289,7 +289,7 @@ fn the_same_seed_gives_the_same_bits() {
 
 #[test]
 fn edge_length_is_met() {
-    let film = checked(&sheet(30, 0.1), FilmResolution::EdgeLength(0.05), 1);
+    let film = checked(&sheet(30, 0.1), FilmTarget::EdgeLength(0.05), 1);
     let edges: Vec<f32> = film
         .triangles
         .iter()
@@ -304,7 +304,7 @@ fn edge_length_is_met() {
 #[test]
 fn features_denser_than_the_target_are_kept_with_a_warning() {
     let surface = bevelled_box(Vec3::new(1.0, 0.7, 0.5), 0.1, 8);
-    let film = checked(&surface, FilmResolution::Triangles(20), 1);
+    let film = checked(&surface, FilmTarget::Triangles(20), 1);
     let found = film.triangles.len() as u32;
     assert!(film.warnings.contains(&BuildWarning::FeaturesDenserThanTarget { target: 20, triangles: found }));
 }
@@ -312,25 +312,25 @@ fn features_denser_than_the_target_are_kept_with_a_warning() {
 #[test]
 fn keep_is_the_mesh_itself() {
     let surface = sphere(8);
-    let film = checked(&surface, FilmResolution::Keep, 1);
+    let film = checked(&surface, FilmTarget::Keep, 1);
     let cleaned = clean(&surface).expect("a clean surface");
     assert_eq!((film.positions, film.triangles), (cleaned.positions, cleaned.triangles));
 }
 
 #[test]
-fn senseless_resolutions_are_refused() {
+fn senseless_targets_are_refused() {
     let surface = sphere(8);
     let bad = [
-        FilmResolution::Triangles(3),
-        FilmResolution::EdgeLength(0.0),
-        FilmResolution::EdgeLength(-1.0),
-        FilmResolution::EdgeLength(f32::NAN),
-        FilmResolution::EdgeLength(f32::INFINITY),
+        FilmTarget::Triangles(3),
+        FilmTarget::EdgeLength(0.0),
+        FilmTarget::EdgeLength(-1.0),
+        FilmTarget::EdgeLength(f32::NAN),
+        FilmTarget::EdgeLength(f32::INFINITY),
     ];
-    for resolution in bad {
-        assert!(matches!(build_film(&surface, resolution, 0), Err(BuildError::Resolution { .. })), "{resolution:?}");
+    for target in bad {
+        assert!(matches!(build_film(&surface, target, 0), Err(BuildError::Resolution { .. })), "{target:?}");
     }
-    let tiny = build_film(&surface, FilmResolution::EdgeLength(1e-9), 0);
+    let tiny = build_film(&surface, FilmTarget::EdgeLength(1e-9), 0);
     assert!(matches!(tiny, Err(BuildError::TooLarge { .. })), "{tiny:?}");
 }
 
@@ -369,6 +369,6 @@ proptest! {
             let color = |t: usize| Vec4::splat(if t.is_multiple_of(5) { 0.2 } else { 0.8 });
             surface.colors = (0..3 * surface.triangles.len()).map(|c| color(c / 3)).collect();
         }
-        checked(&surface, FilmResolution::Triangles(faces), seed);
+        checked(&surface, FilmTarget::Triangles(faces), seed);
     }
 }

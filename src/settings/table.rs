@@ -18,7 +18,8 @@ macro_rules! with_stages {
                 /// Grain, in metres: the length by which [`Rules::Grain`] measures. Cracks lie several grains apart,
                 /// and a curl's radius is about 1.6 grains. On a film whose mean edge is the grain the paper's rules
                 /// give much the same. A film whose mean edge is more than two grains has a larger grain: half its mean
-                /// edge. On a film under way a change draws adhesion and weak edges again.
+                /// edge. [`FilmResolution::Grain`](crate::remesh::FilmResolution::Grain) makes films as fine as their
+                /// grain. On a film under way a change draws adhesion and weak edges again, and keeps the triangles.
                 grain: f32 = 0.028, closed(0.000_01, 1000.0);
             }
             /// Adhesion of the film to the metal (VC 5.1). It varies over the film by Perlin noise and falls with age.

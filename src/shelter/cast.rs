@@ -153,7 +153,8 @@ fn ball(pace: &FilmPace, transform: &GlobalTransform) -> Ball {
 
 /// Returns the centre and radius of a sphere around a film, in the film's space.
 fn sphere(pace: &FilmPace, source: &FilmSource) -> (Vec3, f32) {
-    (pace.bounds.0 - source.origin, pace.bounds.1)
+    let (center, radius) = pace.bounds;
+    (center * source.metres_per_unit - source.origin, radius * source.metres_per_unit)
 }
 
 /// Finds out whether a film needs another cast, and puts it in line if so. Returns the number of meshes and groups of

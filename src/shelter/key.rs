@@ -127,9 +127,11 @@ impl CastOrder {
     pub fn cull(&mut self, sphere: (Vec3, f32)) -> usize {
         let Self { key, blockers, around } = self;
         let Around { place, root, slots, pieces } = around;
-        let film = Ball { center: place.transform_point3(sphere.0), radius: sphere.1 };
-        let ups: Vec<Vec3> =
-            key.falls.iter().filter(|&&fall| fall != Vec3::ZERO).map(|&f| place.transform_vector3(-f)).collect();
+        // The film is in metres, and the world may have another unit.
+        let radius = place.transform_vector3(Vec3::X * sphere.1).length();
+        let film = Ball { center: place.transform_point3(sphere.0), radius };
+        let up = |&fall: &Vec3| place.transform_vector3(-fall).normalize_or_zero();
+        let ups: Vec<Vec3> = key.falls.iter().filter(|&&fall| fall != Vec3::ZERO).map(up).collect();
         let mut looked_at = 0;
         for piece in pieces.near(&film, &ups, &mut looked_at) {
             let Some(tree) = &piece.tree else { continue };

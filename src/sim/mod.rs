@@ -5,6 +5,7 @@
 //! stages on the same parts, as components.
 
 mod clock;
+mod coarse;
 mod digest;
 pub mod edit;
 mod film_measures;
@@ -20,6 +21,7 @@ mod validate;
 mod tests;
 
 pub use clock::{DEFAULT_STEPS_PER_AGE, FilmClock};
+pub use coarse::coarser_than_grain;
 pub use digest::DIGEST_ALGORITHM;
 pub use film_measures::FilmMeasures;
 pub use scratch::StepScratch;

@@ -53,12 +53,15 @@ struct Candidate {
 }
 
 /// Returns the centre and radius of a sphere around a film at rest, in the space of the scaled mesh, in which the film
-/// has its zero at `origin`.
-pub(crate) fn bounds(geometry: &Geometry, origin: Vec3) -> (Vec3, f32) {
+/// has its zero at `origin`, but in units of the world, which are `metres_per_unit` long.
+pub(crate) fn bounds(geometry: &Geometry, origin: Vec3, metres_per_unit: f32) -> (Vec3, f32) {
     let points = &geometry.rest_positions;
     let (min, max) =
         points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
-    if points.is_empty() { (Vec3::ZERO, 0.0) } else { ((min + max) * 0.5 + origin, (max - min).length() * 0.5) }
+    if points.is_empty() {
+        return (Vec3::ZERO, 0.0);
+    }
+    (((min + max) * 0.5 + origin) / metres_per_unit, (max - min).length() * 0.5 / metres_per_unit)
 }
 
 /// Query of the films that share the budget.

@@ -83,15 +83,15 @@ impl FilmInWorld<'_> {
             pieces.write(PieceFallen {
                 entity,
                 position: self.point(debris.position),
-                // Normals turn with the film, which is rotated but not scaled.
+                // Normals turn with the film, which has the world scale applied already.
                 normal: self.transform.rotation() * debris.normal,
-                size: debris.area.sqrt(),
+                size: debris.area.sqrt() / self.source.metres_per_unit,
                 faces: debris.faces,
             });
         }
     }
 
-    /// Returns a point of the film's space, which has the world scale applied, in the world.
+    /// Returns a point of the film's space, which has the world scale applied and is in metres, in the world.
     fn point(&self, p: Vec3) -> Vec3 {
         self.transform.transform_point((p + self.source.origin) / self.source.scale)
     }

@@ -80,4 +80,28 @@ pub enum BuildWarning {
         /// Number of triangles that would follow the shape closely.
         triangles: u32,
     },
+    /// The film's edges are too long for the grain by which its cracks and curls are measured
+    /// ([`Rules::Grain`](crate::settings::Rules::Grain)).
+    #[error(
+        "its edges are {} m long in the mean, which is coarse for a grain of {asked} m{}; {triangles} triangles would \
+         do: ask for as many (or raise `max_triangles` to that), or for a larger `scale.grain`",
+        rounded(*edge),
+        if grain > asked { format!(", so it has a grain of {} m", rounded(*grain)) } else { String::new() }
+    )]
+    CoarserThanGrain {
+        /// Grain that the settings ask for, in metres.
+        asked: f32,
+        /// Mean edge of the film, in metres.
+        edge: f32,
+        /// Grain that the film has, in metres: the one asked for, or half the mean edge if that is larger.
+        grain: f32,
+        /// Number of triangles that would do: of all films of the coating together where they share a number, else of
+        /// this film.
+        triangles: u32,
+    },
+}
+
+/// Returns a length to three digits.
+fn rounded(length: f32) -> f32 {
+    format!("{length:.2e}").parse().unwrap_or(length)
 }

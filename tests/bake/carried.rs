@@ -3,10 +3,8 @@
 use std::{fs, path::Path};
 
 use bevy_coating::{
-    bake::{
-        BakeError, BakeOptions, BakeWarning, Images, Input, Model, NamePattern, Resolution, StainOutput, Stopwatch,
-        bake,
-    },
+    bake::{BakeError, BakeOptions, BakeWarning, Images, Input, Model, NamePattern, StainOutput, Stopwatch, bake},
+    remesh::FilmResolution,
     settings::CoatingSettings,
 };
 use serde_json::{Value, json};
@@ -20,7 +18,7 @@ use crate::{
 pub fn quick(age: f64) -> BakeOptions {
     let mut settings = CoatingSettings::default();
     settings.deform.sweeps_per_age = 100.0;
-    BakeOptions { age, steps: 40, resolution: Resolution::Triangles(600), settings, ..BakeOptions::default() }
+    BakeOptions { age, steps: 40, resolution: FilmResolution::Triangles(600), settings, ..BakeOptions::default() }
 }
 
 /// Ages a model; gives the strictly checked file and the warnings.

@@ -15,8 +15,17 @@ fn figures_have_their_layout_and_agree_with_each_other() {
     assert_eq!(keys(&stats["input"]), ["triangles", "vertices"]);
     assert_eq!(stats["input"]["triangles"], 800);
     let film = &stats["film"];
-    let expected =
-        ["border_loops", "components", "edge_cv", "euler", "mean_edge", "min_angle_deg", "triangles", "vertices"];
+    let expected = [
+        "border_loops",
+        "components",
+        "edge_cv",
+        "euler",
+        "grain",
+        "mean_edge",
+        "min_angle_deg",
+        "triangles",
+        "vertices",
+    ];
     assert_eq!(keys(film), expected);
     assert_eq!([&film["triangles"], &film["components"], &film["border_loops"], &film["euler"]], [800, 1, 1, 1]);
     assert!(number(&film["edge_cv"]) < 0.25 && number(&film["min_angle_deg"]) > 20.0, "{film}");
@@ -115,6 +124,22 @@ fn bad_usage_is_2() {
         &["plate:100", "--seed", "-1"],
         &["plate:100", "--triangles", "3"],
         &["plate:100", "--triangles", "all"],
+        &["plate:100", "--triangles", "100", "--edge", "0.1"],
+        &["plate:100", "--triangles", "100", "--max-triangles", "100"],
+        &["plate:100", "--edge", "0.1", "--max-triangles", "100"],
+        &["plate:100", "--max-triangles", "3"],
+        &["plate:100", "--max-triangles", "-1"],
+        &["plate:100", "--edge", "0"],
+        &["plate:100", "--edge", "-0.1"],
+        &["plate:100", "--edge", "NaN"],
+        &["plate:100", "--edge", "1cm"],
+        &["plate:100", "--metres-per-unit", "0"],
+        &["plate:100", "--metres-per-unit", "20000"],
+        &["plate:100", "--metres-per-unit", "inch"],
+        &["plate:100", "--grain", "0"],
+        &["plate:100", "--grain", "-1"],
+        &["plate:100", "--grain", "wide"],
+        &["plate:100", "--grain", "0.1", "--set", "scale.grain=0.1"],
         &["plate:100", "--gravity", "0,0,0"],
         &["plate:100", "--gravity", "0,-1"],
         &["plate:100", "--gravity", "0,nan,1"],
@@ -142,6 +167,38 @@ fn bad_usage_is_2() {
         assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{case:?}");
     }
     assert!(files(folder.path()).is_empty());
+}
+
+#[test]
+fn films_follow_the_grain_and_say_so_where_they_cannot() {
+    let folder = folder();
+    write_two_squares(folder.path());
+    // 1 and 9 square metres. Edges of 0.7 x 0.1 m: 4,713 triangles.
+    let run = |options: &[&str]| {
+        let output = baked(folder.path(), &[&["two.gltf", "--age", "0", "--stats", "stats.json"], options].concat());
+        let stats: Value = serde_json::from_slice(&fs::read(folder.path().join("stats.json")).expect("figures"))
+            .expect("figures are JSON");
+        (stats["film"].clone(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let by_grain = ["--grain", "0.1", "--set", "scale.rules=grain"];
+    let (film, said) = run(&by_grain);
+    assert!((0.063..0.077).contains(&number(&film["mean_edge"])), "{film}");
+    assert_eq!(film["grain"], json!([0.1, 0.1]));
+    assert!(!said.contains("grain"), "{said}");
+    // By the paper's rules, films follow the grain too, but have none.
+    let (paper, said) = run(&["--set", "scale.grain=0.1", "--set", "scale.rules=paper"]);
+    assert_eq!((&paper["mean_edge"], &paper["grain"]), (&film["mean_edge"], &json!([])));
+    assert!(!said.contains("grain"), "{said}");
+
+    let (film, said) = run(&[&by_grain[..], &["--max-triangles", "1000"]].concat());
+    assert!((900.0..1100.0).contains(&number(&film["triangles"])), "{film}");
+    assert!(said.contains("raise `max_triangles`") && said.contains("the same for 1 more"), "{said}");
+    let (film, said) = run(&[&by_grain[..], &["--triangles", "200"]].concat());
+    assert!(number(&film["grain"][0]) > 0.11 && number(&film["grain"][1]) > 0.11, "{film}");
+    assert!(said.contains("so it has a grain of"), "{said}");
+    let (film, said) = run(&[&by_grain[..], &["--edge", "0.15"]].concat());
+    assert!((0.135..0.165).contains(&number(&film["mean_edge"])), "{film}");
+    assert!(!said.contains("grain"), "{said}");
 }
 
 #[test]

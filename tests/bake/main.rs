@@ -15,3 +15,4 @@ mod picture;
 mod safety;
 mod several;
 mod table1;
+mod units;

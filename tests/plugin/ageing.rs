@@ -7,7 +7,13 @@ use bevy::{
     prelude::*,
     time::TimeUpdateStrategy,
 };
-use bevy_coating::{prelude::*, remesh::build_film, sim::FilmState, stain::Environment, surface::Surface};
+use bevy_coating::{
+    prelude::*,
+    remesh::{build_film, film_targets},
+    sim::FilmState,
+    stain::Environment,
+    surface::Surface,
+};
 
 use crate::common::*;
 
@@ -23,7 +29,8 @@ fn reference(n: u32, coating: &Coating) -> (FilmState, CoatingSettings) {
     };
     let SettingsSource::Inline(settings) = coating.settings.clone() else { panic!("inline settings") };
     let seed = coating.seed.expect("a fixed seed");
-    let built = build_film(&surface, coating.resolution, seed).expect("a film");
+    let target = film_targets(coating.resolution, settings.scale.grain, &[surface.area()])[0];
+    let built = build_film(&surface, target, seed).expect("a film");
     let film = FilmState::new(&built, &settings, seed, coating.steps_per_age).expect("a manifold");
     (film, settings)
 }

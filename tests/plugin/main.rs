@@ -21,6 +21,7 @@ mod clock;
 mod clones;
 mod display;
 mod edits;
+mod grain;
 mod groups;
 #[cfg(feature = "render")]
 mod mask_picture;
@@ -45,3 +46,4 @@ mod stains_age;
 mod stains_material;
 #[cfg(feature = "render")]
 mod stains_picture;
+mod units;

@@ -41,7 +41,7 @@ impl Home {
     /// Chooses where the aged mesh of a prop is put, and the space it has there; `None`: the scene's, around the prop's
     /// origin.
     pub fn of(prop: &Prop, film: &FilmState) -> (Self, Option<NodeSpace>) {
-        let scene = (Self::Scene(prop.origin), None);
+        let scene = Self::in_scene(prop);
         let Some(Place { transform, .. }) = &prop.place else { return scene };
         let inverse = transform.inverse();
         let identity = inverse * *transform;
@@ -64,6 +64,21 @@ impl Home {
             mirrored: linear.determinant() < 0.0,
         };
         (if far { Self::Child(shift) } else { Self::Node }, Some(space))
+    }
+}
+
+impl Home {
+    /// Puts the aged mesh of a prop on a node of the scene's own, around the prop's origin.
+    fn in_scene(prop: &Prop) -> (Self, Option<NodeSpace>) {
+        if prop.metres_per_unit == 1.0 {
+            return (Self::Scene(prop.origin), None);
+        }
+        let scale = 1.0 / f64::from(prop.metres_per_unit);
+        let at = (prop.origin.as_dvec3() * scale).as_vec3();
+        let inverse = DMat4::from_scale(DVec3::splat(scale));
+        let normals = DMat3::IDENTITY;
+        let space = NodeSpace { origin: DVec3::ZERO, inverse, shift: DVec3::ZERO, normals, mirrored: false };
+        (Self::Scene(at), Some(space))
     }
 }
 

@@ -4,7 +4,7 @@ use serde_json::json;
 use super::{texture::to_srgb, *};
 use crate::{
     bake::model::Image,
-    remesh::{FilmResolution, build_film},
+    remesh::{FilmTarget, build_film},
     settings::CoatingSettings,
     surface::Surface,
 };
@@ -19,10 +19,18 @@ fn square(uvs: [[f32; 2]; 4], slot: Slot) -> (Prop, FilmState) {
         uvs: corners.map(|i: usize| Vec2::from(uvs[i])).to_vec(),
         ..Surface::default()
     };
-    let built = build_film(&surface, FilmResolution::Triangles(200), 0).expect("a film");
+    let built = build_film(&surface, FilmTarget::Triangles(200), 0).expect("a film");
     let film = FilmState::new(&built, &CoatingSettings::default(), 0, 100).expect("a film");
-    let prop =
-        Prop { name: "square".into(), surface, origin: Vec3::ZERO, slots: vec![slot], place: None, built, seed: 0 };
+    let prop = Prop {
+        name: "square".into(),
+        surface,
+        origin: Vec3::ZERO,
+        metres_per_unit: 1.0,
+        slots: vec![slot],
+        place: None,
+        built,
+        seed: 0,
+    };
     (prop, film)
 }
 

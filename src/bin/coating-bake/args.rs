@@ -7,8 +7,9 @@ use std::{
 };
 
 use bevy_coating::{
-    bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, NamePattern, Resolution, StainOutput},
+    bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, NamePattern, StainOutput},
     deform::SolverQuality,
+    remesh::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution},
     settings::CoatingSettings,
     stain::Environment,
 };
@@ -22,10 +23,13 @@ use clap::{
 use crate::{
     Failure,
     values::{
-        MAX_WIND, parse_age, parse_glb, parse_gravity, parse_gusts, parse_pattern, parse_quality, parse_resolution,
-        parse_set, parse_texture_size, parse_vector,
+        MAX_WIND, parse_age, parse_count, parse_edge, parse_glb, parse_gravity, parse_gusts, parse_pattern,
+        parse_quality, parse_set, parse_texture_size, parse_triangles, parse_unit, parse_vector,
     },
 };
+
+/// Path of the setting that --grain sets.
+const GRAIN: &str = "scale.grain";
 
 /// Ages a painted prop without a window or a graphics adapter
 #[derive(Debug, Parser)]
@@ -101,12 +105,27 @@ pub struct Args {
     /// Seed of everything random
     #[arg(long, default_value_t = 0, allow_hyphen_values = true)]
     seed: u64,
+    /// Grain in metres, the scale of cracks and curls by the rules Grain; the same as --set scale.grain=M
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    grain: Option<String>,
+    /// Most triangles of all films together, whose edges are 0.7 grains long up to there; test pieces ignore it
+    #[arg(
+        long, value_name = "N", default_value_t = DEFAULT_MAX_TRIANGLES, allow_hyphen_values = true,
+        value_parser = parse_count, conflicts_with_all = ["triangles", "edge"]
+    )]
+    max_triangles: u32,
     /// Triangles of all films together, or keep to use the meshes as they are; test pieces ignore it
     #[arg(
-        long, value_name = "N|keep", default_value = "4000", allow_hyphen_values = true,
-        value_parser = parse_resolution
+        long, value_name = "N|keep", allow_hyphen_values = true, value_parser = parse_triangles,
+        conflicts_with = "edge"
     )]
-    triangles: Resolution,
+    triangles: Option<FilmResolution>,
+    /// Length of the edges of all films in metres; test pieces ignore it
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = parse_edge)]
+    edge: Option<FilmResolution>,
+    /// Metres that a unit of the models is long; test pieces are in metres anyway
+    #[arg(long, value_name = "M", default_value = "1", allow_hyphen_values = true, value_parser = parse_unit)]
+    metres_per_unit: f32,
     /// Direction of gravity in scene space, of any length
     #[arg(
         long, value_name = "X,Y,Z", default_value = "0,-1,0", allow_hyphen_values = true,
@@ -151,6 +170,12 @@ impl Args {
         Some(Path::new(&self.preset)).filter(|file| file.extension().is_some_and(|ending| ending == "ron"))
     }
 
+    /// How fine the films are.
+    fn resolution(&self) -> FilmResolution {
+        let by_grain = FilmResolution::Grain { share: DEFAULT_GRAIN_SHARE, max_triangles: self.max_triangles };
+        self.triangles.or(self.edge).unwrap_or(by_grain)
+    }
+
     /// How to age. Ends the program with code 2 on an unknown preset or setting.
     ///
     /// # Errors
@@ -162,12 +187,18 @@ impl Args {
         } else {
             CoatingSettings::preset(&self.preset).unwrap_or_else(|error| usage_error(&error.to_string()))
         };
-        for (path, value) in &self.settings {
+        if self.grain.is_some() && self.settings.iter().any(|(path, _)| path == GRAIN) {
+            usage_error("--grain and --set scale.grain are the same: give one of them");
+        }
+        let grain = self.grain.as_ref().map(|grain| (GRAIN, grain.as_str()));
+        let others = self.settings.iter().map(|(path, value)| (path.as_str(), value.as_str()));
+        for (path, value) in grain.into_iter().chain(others) {
             settings.set(path, value).unwrap_or_else(|error| usage_error(&error.to_string()));
         }
         settings.validate()?;
         Ok(BakeOptions {
-            resolution: self.triangles,
+            resolution: self.resolution(),
+            metres_per_unit: self.metres_per_unit,
             settings,
             preset: self.preset.clone(),
             age: self.age,

@@ -3,8 +3,9 @@
 use std::{convert::Infallible, ffi::OsString, path::PathBuf};
 
 use bevy_coating::{
-    bake::{MAX_AGE, MAX_TRIANGLES, NamePattern, Resolution, TEXTURE_SIZES},
+    bake::{MAX_AGE, MAX_TRIANGLES, NamePattern, TEXTURE_SIZES, UNITS},
     deform::SolverQuality,
+    remesh::FilmResolution,
 };
 use bevy_math::{DVec3, Vec3};
 
@@ -45,12 +46,30 @@ pub fn parse_age(text: &str) -> Result<f64, String> {
 }
 
 /// A number of triangles, or `keep`.
-pub fn parse_resolution(text: &str) -> Result<Resolution, String> {
+pub fn parse_triangles(text: &str) -> Result<FilmResolution, String> {
     if text == "keep" {
-        return Ok(Resolution::Keep);
+        return Ok(FilmResolution::Keep);
     }
+    let count = parse_count(text).map(FilmResolution::Triangles);
+    count.map_err(|_| format!("neither `keep` nor a number from 4 to {MAX_TRIANGLES}"))
+}
+
+/// A number of triangles.
+pub fn parse_count(text: &str) -> Result<u32, String> {
     let count = text.parse().ok().filter(|n| (4..=MAX_TRIANGLES).contains(n));
-    count.map(Resolution::Triangles).ok_or_else(|| format!("neither `keep` nor a number from 4 to {MAX_TRIANGLES}"))
+    count.ok_or_else(|| format!("not a number from 4 to {MAX_TRIANGLES}"))
+}
+
+/// A length of edges.
+pub fn parse_edge(text: &str) -> Result<FilmResolution, &'static str> {
+    let edge = text.parse().ok().map(FilmResolution::EdgeLength).filter(|edge| edge.validate().is_ok());
+    edge.ok_or("not a number of metres above 0")
+}
+
+/// A unit's length in its range.
+pub fn parse_unit(text: &str) -> Result<f32, String> {
+    let metres = text.parse().ok().filter(|metres| UNITS.contains(metres));
+    metres.ok_or_else(|| format!("not a number from {} to {}", UNITS.start(), UNITS.end()))
 }
 
 /// A size of textures in its range.

@@ -69,7 +69,7 @@ fn volume_change(surface: &Surface, film: &BuiltFilm) -> f64 {
 /// Builds and checks a film, and returns it with the number of splits, collapses and flips that it took.
 fn counted(surface: &Surface, triangles: u32) -> (BuiltFilm, u64) {
     EDITS.set(0);
-    let film = checked(surface, FilmResolution::Triangles(triangles), 1);
+    let film = checked(surface, FilmTarget::Triangles(triangles), 1);
     assert!(film.positions.iter().all(|p| p.is_finite()));
     (film, EDITS.get())
 }
@@ -154,7 +154,7 @@ fn round_bars_stay_round_or_a_warning_says_how_far_they_do_not() {
     for (sides, rings) in [(16, 40), (24, 100), (64, 200)] {
         // A smooth pipe of which about four of the target's edges go around.
         let surface = bar(&circle(sides, 0.02), 10.0, rings);
-        let film = checked(&surface, FilmResolution::Triangles(4000), 1);
+        let film = checked(&surface, FilmTarget::Triangles(4000), 1);
         let (area, volume) = (area_change(&surface, &film), volume_change(&surface, &film));
         assert!(volume > -0.12 && area > -0.04, "{sides} sides: area {area}, volume {volume} off");
         let warned = film.warnings.iter().find_map(|w| match w {
@@ -164,7 +164,7 @@ fn round_bars_stay_round_or_a_warning_says_how_far_they_do_not() {
         assert_eq!(warned.is_some(), volume < -0.08 || area < -0.03, "{warned:?}: area {area}, volume {volume}");
         if let Some((percent, triangles)) = warned {
             assert!((f64::from(percent) - 100.0 * volume).abs() < 0.1, "{percent} % said, {volume}");
-            let finer = checked(&surface, FilmResolution::Triangles(triangles), 1);
+            let finer = checked(&surface, FilmTarget::Triangles(triangles), 1);
             let (area, volume) = (area_change(&surface, &finer), volume_change(&surface, &finer));
             assert!(volume > -0.09 && area > -0.034, "the way out is none: area {area}, volume {volume}");
         }
@@ -192,18 +192,18 @@ fn small_parts_keep_their_shape_or_a_warning_counts_them() {
         f64::from(area(positions, &caps))
     };
     let before = of_caps(&surface.positions, &surface.triangles, &surface.slots);
-    let film = checked(&surface, FilmResolution::Triangles(4000), 1);
+    let film = checked(&surface, FilmTarget::Triangles(4000), 1);
     let lost = change(before, of_caps(&film.positions, &film.triangles, &film.slots));
     assert!(lost.abs() < 0.15, "the rivets' area is {lost} off");
     let is_coarse = |w: &BuildWarning| matches!(w, BuildWarning::SmallPartsCoarse { .. });
     assert!(!film.warnings.iter().any(is_coarse), "{:?}", film.warnings);
 
-    let film = checked(&surface, FilmResolution::Triangles(500), 1);
+    let film = checked(&surface, FilmTarget::Triangles(500), 1);
     let Some(&BuildWarning::SmallPartsCoarse { parts, triangles }) = film.warnings.iter().find(|w| is_coarse(w)) else {
         panic!("no warning: {:?}", film.warnings);
     };
     assert_eq!(parts, 80);
-    let film = checked(&surface, FilmResolution::Triangles(triangles), 1);
+    let film = checked(&surface, FilmTarget::Triangles(triangles), 1);
     assert!(!film.warnings.iter().any(is_coarse), "the way out is none: {:?}", film.warnings);
 }
 
@@ -238,14 +238,14 @@ fn sizes_out_of_range_are_refused_and_all_others_give_finite_films() {
         surface
     };
     for size in [1e-30, 1e-12, 1e-6, 1e7, 1e20, 1e38] {
-        for resolution in [FilmResolution::Triangles(500), FilmResolution::Keep] {
-            let result = build_film(&at(size), resolution, 1);
+        for target in [FilmTarget::Triangles(500), FilmTarget::Keep] {
+            let result = build_film(&at(size), target, 1);
             assert!(matches!(result, Err(BuildError::Size { .. })), "{size} m: {result:?}");
         }
     }
-    let reference = checked(&at(1.0), FilmResolution::Triangles(500), 1);
+    let reference = checked(&at(1.0), FilmTarget::Triangles(500), 1);
     for size in [1.1e-4, 1e-3, 1e3, 0.9e6] {
-        let film = checked(&at(size), FilmResolution::Triangles(500), 1);
+        let film = checked(&at(size), FilmTarget::Triangles(500), 1);
         assert!(film.positions.iter().all(|p| p.is_finite()));
         let ratio = film.triangles.len() as f32 / reference.triangles.len() as f32;
         assert!((ratio - 1.0).abs() < 0.02, "{size} m: {} triangles", film.triangles.len());
@@ -255,11 +255,11 @@ fn sizes_out_of_range_are_refused_and_all_others_give_finite_films() {
 #[test]
 fn far_surfaces_are_built_around_their_middle() {
     let mut surface = bevelled_box(Vec3::new(128.0, 64.0, 64.0), 8.0, 2);
-    let near = checked(&surface, FilmResolution::Triangles(1000), 1);
+    let near = checked(&surface, FilmTarget::Triangles(1000), 1);
     // A power of two, so that both give the same bits.
     let offset = Vec3::new(524_288.0, 0.0, -524_288.0);
     surface.positions.iter_mut().for_each(|p| *p += offset);
-    let far = build_film(&surface, FilmResolution::Triangles(1000), 1).expect("a film");
+    let far = build_film(&surface, FilmTarget::Triangles(1000), 1).expect("a film");
     assert_eq!((&far.triangles, &far.sites), (&near.triangles, &near.sites));
     for (far, near) in far.positions.iter().zip(&near.positions) {
         assert!((*far - offset).distance(*near) < 0.1, "{far} is not {near}");
@@ -267,6 +267,6 @@ fn far_surfaces_are_built_around_their_middle() {
 
     let mut small = bevelled_box(Vec3::new(0.5, 0.5, 0.5), 0.125, 2);
     small.positions.iter_mut().for_each(|p| *p += offset);
-    let result = build_film(&small, FilmResolution::Triangles(4000), 1);
+    let result = build_film(&small, FilmTarget::Triangles(4000), 1);
     assert!(matches!(result, Err(BuildError::FarFromOrigin { .. })), "{result:?}");
 }
