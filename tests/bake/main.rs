@@ -13,5 +13,6 @@ mod model;
 #[cfg(feature = "render")]
 mod picture;
 mod safety;
+mod scale;
 mod several;
 mod table1;
