@@ -44,7 +44,7 @@ pub const NAMES: [&str; 2] = ["scene", "close"];
 fn orbit(view: View) -> Orbit {
     match view {
         View::Scene | View::All => {
-            Orbit { centre: Vec3::new(0.0, 0.82, 0.0), distance: 9.0, yaw: 0.0, pitch: 0.17, field_of_view: 0.38 }
+            Orbit { centre: Vec3::new(-0.1, 0.82, 0.0), distance: 9.0, yaw: 0.0, pitch: 0.17, field_of_view: 0.38 }
         }
         View::Close => {
             Orbit { centre: Vec3::new(0.1, 0.52, 1.0), distance: 4.2, yaw: -0.05, pitch: 0.16, field_of_view: 0.36 }
