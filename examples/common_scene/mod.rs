@@ -9,7 +9,8 @@
 //!                    window: orbit camera, keys, read-out
 //! ```
 //!
-//! The example itself brings a [`sky::Sky`], its views, and its props, each with a [`paint::Paint`].
+//! The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views, and its props, each with a
+//! [`paint::Paint`].
 
 #![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
 
@@ -20,7 +21,9 @@ pub mod cli;
 pub mod graphics;
 pub mod headless;
 pub mod keys;
+pub mod label;
 pub mod paint;
 pub mod picture;
 pub mod sky;
+pub mod studio;
 pub mod window;

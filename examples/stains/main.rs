@@ -10,18 +10,16 @@ mod bare;
 mod cli;
 #[path = "../common_scene/mod.rs"]
 mod common_scene;
-mod label;
 mod pieces;
 mod rounded_box;
 mod stage;
-mod studio;
 mod themes;
 mod weather;
 
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, window};
+use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
 
 fn main() -> AppExit {
     let options = Options::parse();
@@ -37,6 +35,7 @@ fn main() -> AppExit {
         window::add(&mut app, "Stains", size, stage::views(&options, size));
     }
     app.insert_resource(options);
-    app.add_plugins((paint::PaintPlugin, weather::WeatherPlugin, studio::StudioPlugin, stage::StagePlugin));
+    let studio = StudioPlugin { sun: weather::sun_direction() };
+    app.add_plugins((paint::PaintPlugin, weather::WeatherPlugin, studio, stage::StagePlugin));
     app.run()
 }

@@ -3,9 +3,9 @@
 use crate::cli::Options;
 use crate::common_scene::camera::Orbit;
 use crate::common_scene::headless::Shot;
+use crate::common_scene::label::Pen;
 use crate::common_scene::paint::{Loading, Paint};
 use crate::common_scene::window::Views;
-use crate::label::Pen;
 use crate::pieces::Piece;
 use crate::themes::{Row, Theme};
 use crate::weather::{self, InWind};

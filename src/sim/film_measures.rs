@@ -28,6 +28,10 @@ pub struct FilmMeasures {
     pub straightness: Option<f64>,
     /// Total rest length of all torn edges divided by the square root of the rest area.
     pub crack_length: Option<f64>,
+    /// Mean distance between cracks along random straight lines on the surface, in units of the film's space: the rest
+    /// area times pi, divided by twice the length of all torn edges (the Cauchy-Crofton formula). `None` before the
+    /// first crack.
+    pub crack_spacing: Option<f64>,
     /// Number of connected pieces: live faces joined across bound edges.
     pub pieces: u64,
     /// Number of connected pieces without an attached vertex.

@@ -1,5 +1,7 @@
 //! Measures films: fracture statistics, strain, lift and stains.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{film_measures::FilmMeasures, state::FilmState};
 use crate::{
     film::{FaceFate, HalfEdgeId, LoosePieces, PieceScratch, VertexId},
@@ -198,6 +200,9 @@ impl Sums {
             straightness: (!self.straight.is_empty())
                 .then(|| self.straight.iter().sum::<f64>() / self.straight.len() as f64),
             crack_length: (self.area > 0.0).then(|| self.crack_length / self.area.sqrt()),
+            // A line of length s on the surface meets 2 s / pi times the cracks' length per area.
+            crack_spacing: (self.area > 0.0 && self.crack_length > 0.0)
+                .then(|| self.area * FRAC_PI_2 / self.crack_length),
             pieces: self.pieces,
             loose_pieces: self.loose,
             strain_rms: (self.strains > 0).then(|| (self.strain_squares / self.strains as f64).sqrt()),

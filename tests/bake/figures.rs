@@ -60,6 +60,7 @@ fn figures_have_their_layout_and_agree_with_each_other() {
         "junctions",
         "straightness",
         "crack_length",
+        "crack_spacing",
         "pieces",
         "loose_pieces",
         "strain_rms",

@@ -13,6 +13,7 @@ mod model;
 #[cfg(feature = "render")]
 mod picture;
 mod safety;
+mod scale;
 mod several;
 mod table1;
 mod units;

@@ -1,7 +1,6 @@
-//! Light for looking at stains: a bright, even sky, and a sun from the right that casts shadows.
+//! Light for looking at paint: a bright, even sky, and a sun that casts shadows.
 
-use crate::common_scene::sky::Sky;
-use crate::weather::sun_direction;
+use super::sky::Sky;
 use bevy::light::{CascadeShadowConfigBuilder, DirectionalLightShadowMap};
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
@@ -9,11 +8,16 @@ use bevy::prelude::*;
 /// Luminance of 1 in [`radiance`], cd/m².
 const BRIGHTNESS: f32 = 850.0;
 
-pub struct StudioPlugin;
+/// The light of the studio.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct StudioPlugin {
+    /// Where the sun stands, a unit vector.
+    pub sun: Vec3,
+}
 
 impl Plugin for StudioPlugin {
     fn build(&self, app: &mut App) {
-        app.add_systems(PreStartup, paint_sky).add_systems(Startup, spawn_sun);
+        app.insert_resource(*self).add_systems(PreStartup, paint_sky).add_systems(Startup, spawn_sun);
     }
 }
 
@@ -26,7 +30,7 @@ fn paint_sky(mut commands: Commands, mut images: ResMut<Assets<Image>>) {
     commands.insert_resource(sky);
 }
 
-fn spawn_sun(mut commands: Commands) {
+fn spawn_sun(mut commands: Commands, studio: Res<StudioPlugin>) {
     commands.insert_resource(DirectionalLightShadowMap { size: 4096 });
     commands.insert_resource(GlobalAmbientLight { brightness: 0.0, ..default() });
     commands.spawn((
@@ -47,7 +51,7 @@ fn spawn_sun(mut commands: Commands) {
             overlap_proportion: 0.1,
         }
         .build(),
-        Transform::default().looking_to(-sun_direction(), Vec3::Y),
+        Transform::default().looking_to(-studio.sun, Vec3::Y),
     ));
 }
 

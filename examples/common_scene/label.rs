@@ -1,4 +1,4 @@
-//! Writing on the stage: text drawn into a texture with the fonts that egui brings.
+//! Writing in a scene: text drawn into a texture with the fonts that egui brings.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::Image;
