@@ -5,6 +5,11 @@
 //! all vertices that share a constraint with it have been quiet for [`TICKS`] ticks and no target there narrows any
 //! more. It wakes when one of these vertices moves more than that, or anything fractures beside it.
 //!
+//! On a film that is measured by its grain a vertex wakes only once one of these vertices has come [`DISTURBED`] of a
+//! mean edge away from where it last was when it woke its neighbours. And of what has curled nothing falls asleep
+//! before all of it may: constraints that are left out or come back change the order in which the others are solved,
+//! on which the shape of curls depends a little, so that curls that slept one by one would wake each other without end.
+//!
 //! A loose piece sleeps as a whole or not at all: a part of it held fast would push the rest about without end.
 
 use bevy_math::Vec3;
@@ -21,6 +26,13 @@ use crate::film::{FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId, words::
 
 /// Farthest that a quiet vertex moves in a tick, in mean edges.
 const QUIET: f32 = 1e-4;
+/// The same on a film that is measured by its grain: what moves so little comes to rest within an edge's twentieth.
+const QUIET_BY_GRAIN: f32 = 1e-3;
+/// Distance from its place at rest, in mean edges, within which a vertex has not curled: one farther away takes part
+/// in curls, and would let them jerk if it slept (tried: with 0.02, by 0.03 mean edges now and then, without end).
+const FLAT: f32 = 5e-4;
+/// Way of a vertex, in mean edges, that wakes its neighbours on a film that is measured by its grain.
+const DISTURBED: f32 = 0.01;
 /// Number of ticks that a vertex must have been quiet.
 const TICKS: u8 = 2;
 
@@ -29,6 +41,8 @@ const TICKS: u8 = 2;
 pub struct SleepMarks {
     positions: Vec<Vec3>,
     quiet: Vec<u8>,
+    /// Where each vertex was when it last woke its neighbours. Empty by the paper's rules.
+    announced: Vec<Vec3>,
     /// Vertices of loose pieces, all false between ticks.
     loose: Vec<bool>,
     /// Vertices that fall asleep.
@@ -55,6 +69,9 @@ impl SleepMarks {
         self.positions.push(self.positions[kept.index()]);
         self.quiet.push(0);
         self.loose.push(false);
+        if let Some(&announced) = self.announced.get(kept.index()) {
+            self.announced.push(announced);
+        }
     }
 
     /// Notes that `v` begins to move from where it is.
@@ -82,15 +99,21 @@ impl SleepMarks {
         mesh: &FilmMesh,
         loose: &LoosePieces,
         by: Narrowing,
+        by_grain: bool,
     ) {
         packed.points_mut().sort();
+        if by_grain && self.announced.is_empty() {
+            self.announced.clone_from(&self.positions);
+        } else if !by_grain {
+            self.announced.clear();
+        }
         self.find_disturbed(packed.points(), mesh, loose);
         let disturbed = std::mem::take(&mut self.disturbed);
         for &v in &disturbed {
             self.wake(packed, ledger, mesh, v);
         }
         self.disturbed = disturbed;
-        self.find_sleepers(packed, ledger, &mesh.topology, loose, by);
+        self.find_sleepers(packed, ledger, mesh, loose, by);
         self.put_to_sleep(packed, ledger, &mesh.topology);
         packed.compact(ledger, &mesh.topology);
     }
@@ -98,14 +121,26 @@ impl SleepMarks {
     /// Notes how far the vertices that are awake have moved since the last tick, and finds those asleep beside them
     /// that are to be woken.
     fn find_disturbed(&mut self, points: &Points, mesh: &FilmMesh, loose: &LoosePieces) {
-        let least = QUIET * mesh.geometry.mean_edge;
+        let edge = mesh.geometry.mean_edge;
+        let by_grain = !self.announced.is_empty();
+        let least = if by_grain { QUIET_BY_GRAIN * edge } else { QUIET * edge };
+        let far = DISTURBED * edge;
         self.disturbed.clear();
         for v in points.awake() {
             let position = points.position(v);
-            let quiet = position.distance_squared(self.positions[v]) < least * least;
+            let way = position - self.positions[v];
+            let quiet = way.length_squared() < least * least;
             self.positions[v] = position;
             self.quiet[v] = if quiet { self.quiet[v].saturating_add(1) } else { 0 };
-            if !quiet && points.asleep_count() > 0 {
+            let disturbs = match self.announced.get_mut(v) {
+                Some(announced) if position.distance_squared(*announced) > far * far => {
+                    *announced = position;
+                    true
+                }
+                Some(_) => false,
+                None => !quiet,
+            };
+            if disturbs && points.asleep_count() > 0 {
                 for_neighbours(&mesh.topology, VertexId::new(v), |n| {
                     if points.motion(n.index()) == Motion::Asleep {
                         self.disturbed.push(n);
@@ -127,10 +162,11 @@ impl SleepMarks {
         &mut self,
         packed: &PackedConstraints,
         ledger: &Ledger,
-        topology: &Topology,
+        mesh: &FilmMesh,
         loose: &LoosePieces,
         by: Narrowing,
     ) {
+        let topology = &mesh.topology;
         let mut sleepers = std::mem::take(&mut self.sleepers);
         sleepers.clear();
         for piece in loose.iter() {
@@ -141,8 +177,26 @@ impl SleepMarks {
                 sleepers.extend_from_slice(piece.vertices);
             }
         }
-        let held = packed.points().awake().map(VertexId::new).filter(|v| !self.loose[v.index()]);
-        sleepers.extend(held.filter(|&v| self.may_sleep(packed, ledger, topology, v, by)));
+        let held = || packed.points().awake().map(VertexId::new).filter(|v| !self.loose[v.index()]);
+        let by_grain = !self.announced.is_empty();
+        let may_all = by_grain && held().all(|v| self.is_quiet(v));
+        let flat = FLAT * mesh.geometry.mean_edge;
+        let lies_flat = |v: VertexId| {
+            let rest = mesh.geometry.rest_positions[v.index()];
+            packed.points().position(v.index()).distance_squared(rest) < flat * flat
+        };
+        let before = sleepers.len();
+        sleepers.extend(
+            held()
+                .filter(|&v| !by_grain || may_all || self.is_quiet(v) && lies_flat(v))
+                .filter(|&v| self.may_sleep(packed, ledger, topology, v, by)),
+        );
+        if may_all && sleepers.len() - before < held().count() {
+            // A target still narrows somewhere.
+            let mut flat = sleepers.split_off(before);
+            flat.retain(|&v| lies_flat(v));
+            sleepers.append(&mut flat);
+        }
         loose.iter().flat_map(|piece| piece.vertices).for_each(|v| self.loose[v.index()] = false);
         self.sleepers = sleepers;
     }
@@ -169,9 +223,12 @@ impl SleepMarks {
     /// Appends all that decides who sleeps.
     pub fn write_state(&self, to: &mut Words) {
         // Buffers mean nothing between ticks.
-        let Self { positions, quiet, loose: _, sleepers: _, stale: _, disturbed: _ } = self;
+        let Self { positions, quiet, announced, loose: _, sleepers: _, stale: _, disturbed: _ } = self;
         to.vectors(positions);
         to.list(quiet.iter().map(|&ticks| u32::from(ticks)));
+        if !announced.is_empty() {
+            to.vectors(announced);
+        }
     }
 
     fn is_quiet(&self, v: VertexId) -> bool {
@@ -214,7 +271,11 @@ mod tests {
 
     #[test]
     fn every_field_of_sleep_counts() {
-        let changes: [fn(&mut SleepMarks); 2] = [|sleep| sleep.positions[1] = Vec3::X, |sleep| sleep.quiet[1] = 1];
+        let changes: [fn(&mut SleepMarks); 3] = [
+            |sleep| sleep.positions[1] = Vec3::X,
+            |sleep| sleep.quiet[1] = 1,
+            |sleep| sleep.announced = vec![Vec3::X; 2],
+        ];
         assert_each_counts(&SleepMarks::new(2), SleepMarks::write_state, &changes);
     }
 }

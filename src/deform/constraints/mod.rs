@@ -266,7 +266,8 @@ impl FilmConstraints {
     /// Ends a tick: wakes the vertices that are disturbed, and puts those to sleep that have long been quiet. `by` is
     /// how targets narrow.
     pub(super) fn tick(&mut self, mesh: &FilmMesh, loose: &LoosePieces, by: Narrowing) {
-        self.sleep.tick(&mut self.packed, &mut self.ledger, mesh, loose, by);
+        let by_grain = self.curl.is_some();
+        self.sleep.tick(&mut self.packed, &mut self.ledger, mesh, loose, by, by_grain);
     }
 
     /// Returns the points of the packed solver.

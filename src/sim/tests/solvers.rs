@@ -109,7 +109,7 @@ fn momentum_makes_up_for_the_sweeps_that_are_left_out() {
 }
 
 /// Takes one step, in which nothing falls asleep.
-fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
+pub(super) fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
     let environment = Environment::default();
     let FilmState { mesh, forces, constraints, stains, clock, quality, changes, scratch } = film;
     stage::begin(clock, changes);
@@ -119,7 +119,11 @@ fn step_sleepless(film: &mut FilmState, settings: &CoatingSettings) {
     stage::strip(mesh, forces, clock, changes, settings, &mut scratch.fracture);
     stage::link(mesh, constraints, changes, settings);
     let step = (clock.steps, clock.steps_per_age);
-    let pace = SolvePace::of_step(settings.deform.sweeps_per_age, *quality, step, false);
+    let sweeps = settings.deform.sweeps_per_age;
+    let pace = match settings.scale.grain_of(&mesh.geometry) {
+        Some(grain) => SolvePace::of_grain_step(sweeps, grain.in_edges(&mesh.geometry), *quality, step, false),
+        None => SolvePace::of_step(sweeps, *quality, step, false),
+    };
     deform::bend_film(mesh, constraints, &forces.loose, &settings.deform, pace, changes, &mut scratch.bend);
 }
 
