@@ -4,9 +4,7 @@ use crate::cli::Options;
 use crate::common_scene::bare::Piece;
 use crate::common_scene::graphics;
 use crate::props::{PROPS, Prop};
-use bevy_coating::bake::{BakeError, BakeOptions, Carried, Images, Input, Model, Resolution};
-use bevy_coating::remesh::FilmResolution;
-use bevy_coating::surface::Surface;
+use bevy_coating::bake::{BakeError, BakeOptions, Carried, Images, Input, Model};
 use std::path::Path;
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
@@ -15,17 +13,8 @@ pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
         let mut model = Input::File(file).read(options.scene.seed, Images::Load)?;
         enlarge(&mut model, prop.scale);
         let coating = options.coating(options.rules, prop.seed);
-        let triangles = match coating.resolution {
-            FilmResolution::EdgeLength(edge) => {
-                let area: f64 = model.meshes.iter().map(|mesh| area(&mesh.surface)).sum();
-                // Equilateral triangles.
-                (area / (0.433 * f64::from(edge) * f64::from(edge))) as u32
-            }
-            FilmResolution::Triangles(triangles) => triangles,
-            FilmResolution::Keep => 4000,
-        };
         let bake = BakeOptions {
-            resolution: Resolution::Triangles(triangles),
+            resolution: coating.resolution,
             preset: options.preset.0.clone(),
             settings: options.settings(options.rules),
             age: options.ages.iter().copied().fold(0.0, f64::max),
@@ -45,10 +34,4 @@ fn enlarge(model: &mut Model, scale: f32) {
         mesh.origin *= scale;
         mesh.place = None;
     }
-}
-
-fn area(surface: &Surface) -> f64 {
-    let corner = |i: u32| surface.positions[i as usize];
-    let area = |[a, b, c]: [u32; 3]| (corner(b) - corner(a)).cross(corner(c) - corner(a)).length() * 0.5;
-    surface.triangles.iter().map(|t| f64::from(area(*t))).sum()
 }

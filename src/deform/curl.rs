@@ -17,8 +17,8 @@ const REGULAR: f32 = 0.577_350_26;
 const FAR: f32 = 2.0;
 
 /// Part of the square of the mean edge by which the square of the reach is less. Coarse triangles give way more to
-/// curls in two directions at once and would lift further: mean height at which a tenth of the separated area of a plate
-/// is exceeded at age 1, at h = s, s/2, s/4 with a reach of 2 s throughout: 22.7, 14.1, 12.8 mm.
+/// curls in two directions at once and would lift further: height that a tenth of the separated area of a plate exceeds
+/// at age 1, at h = s, s/2, s/4 with a reach of 2 s throughout: 22.7, 14.1, 12.8 mm.
 const SMEARED: f32 = 1.8;
 /// Least share of the reach that is left.
 const LEAST_REACH: f32 = 0.6;

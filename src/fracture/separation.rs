@@ -19,14 +19,14 @@ use crate::{
 /// use bevy_coating::{
 ///     film::{FilmMesh, VertexId},
 ///     fracture::{FilmForces, bending_force},
-///     settings::CoatingSettings,
+///     settings::{CoatingSettings, Preset},
 /// };
 /// use bevy_math::Vec3;
 ///
 /// // Two flat triangles: vertex 0 lies opposite the edge that they share.
 /// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
 /// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
-/// let settings = CoatingSettings::default();
+/// let settings = CoatingSettings::from(Preset::Paper);
 /// let forces = FilmForces::new(&mesh, &settings, 7);
 /// let force = bending_force(&mesh, &forces, VertexId(0), settings.bending.gain);
 /// assert!((force - 1.0 / 6.0).abs() < 1e-6, "k T S(pi) = 1/3 * 1 * 1/2");
@@ -72,13 +72,13 @@ pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, d
 /// use bevy_coating::{
 ///     film::{FilmChanges, FilmMesh, VertexId},
 ///     fracture::{FilmForces, separate},
-///     settings::CoatingSettings,
+///     settings::{CoatingSettings, Preset},
 /// };
 /// use bevy_math::Vec3;
 ///
 /// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
 /// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
-/// let settings = CoatingSettings::default();
+/// let settings = CoatingSettings::from(Preset::Paper);
 /// let mut forces = FilmForces::new(&mesh, &settings, 7);
 /// forces.set_adhesion(VertexId(0), 0.1); // the bending force there is 1/6
 /// forces.set_adhesion(VertexId(3), 0.2);

@@ -28,13 +28,13 @@ use crate::{
 /// use bevy_coating::{
 ///     film::{FilmChanges, FilmMesh},
 ///     fracture::{FilmForces, FractureScratch, strip},
-///     settings::CoatingSettings,
+///     settings::{CoatingSettings, Preset},
 /// };
 /// use bevy_math::Vec3;
 ///
 /// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
 /// let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
-/// let settings = CoatingSettings::default();
+/// let settings = CoatingSettings::from(Preset::Paper);
 /// let mut forces = FilmForces::new(&mesh, &settings, 7);
 /// forces.separated_age.fill(0.0); // every vertex has separated
 /// forces.touch_all();

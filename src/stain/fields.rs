@@ -89,7 +89,7 @@ pub struct StainFields {
     /// direction when the prop is turned later.
     pub streaks: Vec3,
     /// Counter that changes whenever stains look different, so that display needs to follow only then: something tore
-    /// or came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since that was last looked at.
+    /// or came off, or a value that is shown, from 0 to 1, has changed by more than 1/255 since it last came to count.
     pub revision: u32,
     /// Stains as they were when the revision last changed.
     pub(super) shown: Shown,

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use bevy_coating::{
-    bake::{BakeOptions, Carried, Images, Input, Model, NamePattern, Resolution, Stopwatch, bake},
+    bake::{BakeOptions, Carried, Images, Input, Model, NamePattern, Stopwatch, bake},
+    remesh::FilmResolution,
     settings::{CoatingSettings, Rules, ScaleSettings},
 };
 
@@ -40,7 +41,7 @@ fn spacing(name: &str, size: f32, rules: Rules, triangles: impl Fn(f64) -> f64) 
     let model = model(name, size);
     let area: f64 = model.meshes.iter().map(|mesh| mesh.surface.area()).sum();
     let cracks_per_length = |seed| {
-        let resolution = Resolution::Triangles(triangles(area) as u32);
+        let resolution = FilmResolution::Triangles(triangles(area) as u32);
         let settings = settings.clone();
         let options = BakeOptions { resolution, settings, steps: 400, seed, ..BakeOptions::default() };
         let stats = bake(model.clone(), &options, Stopwatch::start(), &()).expect("an aged prop").stats();
