@@ -10,15 +10,15 @@ use crate::{
 /// Mean edge of a film that has too few triangles for its grain, in grains, or in those edges that were asked for if
 /// they are longer.
 const COARSE: f32 = 1.1;
-/// Mean edge in grains beyond which a film of any resolution has another grain than is asked for.
+/// Mean edge in grains beyond which a film has a larger grain than is asked for.
 const COARSEST: f32 = 2.0;
 
 /// Returns the warning that a film is coarser than the grain that `scale` asks for; `None` if it is not, and by the
 /// paper's rules, which have no grain.
 ///
-/// The film was built for `target`, which is what the coating's `resolution` came to. It is too coarse if there were
-/// not triangles enough for a [`FilmResolution::Grain`] and its mean edge is more than 1.1 grains, or whatever the
-/// resolution, if its mean edge is more than two grains, so that it has a larger grain.
+/// The film was built for `target`, which is what the coating's `resolution` came to. It is too coarse if that is a
+/// [`FilmResolution::Grain`] for which there were not triangles enough and its mean edge is more than 1.1 grains, or if
+/// its mean edge is more than two grains. Whoever asks for a number of triangles, or for edges, gets them without a word.
 ///
 /// ```
 /// use bevy_coating::{
@@ -32,10 +32,11 @@ const COARSEST: f32 = 2.0;
 /// scale.rules = Rules::Grain;
 /// let plate = sample::plate(200, 7)?.film;
 /// let mesh = FilmMesh::new(plate.positions, &plate.triangles).expect("a plate is a manifold");
-/// let warning = coarser_than_grain(&mesh, FilmResolution::Triangles(200), FilmTarget::Triangles(200), &scale);
+/// let (resolution, target) = (FilmResolution::Grain { share: 0.7, max_triangles: 200 }, FilmTarget::Triangles(200));
+/// let warning = coarser_than_grain(&mesh, resolution, target, &scale);
 /// assert!(warning.is_some_and(|warning| warning.to_string().contains("scale.grain")));
 /// scale.grain = 0.1;
-/// assert_eq!(coarser_than_grain(&mesh, FilmResolution::Triangles(200), FilmTarget::Triangles(200), &scale), None);
+/// assert_eq!(coarser_than_grain(&mesh, resolution, target, &scale), None);
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 pub fn coarser_than_grain(
@@ -48,11 +49,9 @@ pub fn coarser_than_grain(
         return None;
     }
     let (asked, edge) = (scale.grain, mesh.geometry.mean_edge);
-    let (share, budget) = match (resolution, target) {
-        (FilmResolution::Grain { share, max_triangles }, FilmTarget::Triangles(_)) => {
-            (Some(share), Some(max_triangles))
-        }
-        (FilmResolution::Triangles(budget), _) => (None, Some(budget)),
+    let FilmResolution::Grain { share, max_triangles } = resolution else { return None };
+    let (share, budget) = match target {
+        FilmTarget::Triangles(_) => (Some(share), Some(max_triangles)),
         _ => (None, None),
     };
     let limit = share.map_or(COARSEST, |share| COARSE * share.max(1.0));
@@ -71,8 +70,6 @@ pub fn coarser_than_grain(
 mod tests {
     use super::*;
     use crate::{remesh::sample, settings::CoatingSettings};
-
-    const KEPT: (FilmResolution, FilmTarget) = (FilmResolution::Keep, FilmTarget::Keep);
 
     /// What is said of a plate of 800 triangles, whose grain is asked to be its mean edge over `edges`.
     fn said(edges: f32, (resolution, target): (FilmResolution, FilmTarget)) -> Option<(f32, f32, u32)> {
@@ -93,16 +90,10 @@ mod tests {
     }
 
     #[test]
-    fn films_with_a_larger_grain_than_asked_for_are_told() {
-        for asked in [KEPT, (FilmResolution::Triangles(800), FilmTarget::Triangles(800))] {
-            assert_eq!(said(1.95, asked), None);
-            let (edges, grains, triangles) = said(4.0, asked).expect("a warning");
-            assert!((edges - 4.0).abs() < 1e-5 && (grains - 2.0).abs() < 1e-5, "{edges} {grains}");
-            assert!(triangles.abs_diff(16 * 800) <= 1, "{triangles}");
-        }
-        // The film's own share of a number of triangles does not count, but the number.
-        let half = (FilmResolution::Triangles(1600), FilmTarget::Triangles(800));
-        assert!(said(4.0, half).expect("a warning").2.abs_diff(16 * 1600) <= 1);
+    fn who_asks_for_coarse_films_gets_them_without_a_word() {
+        assert_eq!(said(4.0, (FilmResolution::Keep, FilmTarget::Keep)), None);
+        assert_eq!(said(4.0, (FilmResolution::Triangles(800), FilmTarget::Triangles(800))), None);
+        assert_eq!(said(4.0, (FilmResolution::EdgeLength(0.1), FilmTarget::EdgeLength(0.1))), None);
     }
 
     #[test]
@@ -110,6 +101,8 @@ mod tests {
         let of = |share| FilmResolution::Grain { share, max_triangles: 1600 };
         let bound = |share| (of(share), FilmTarget::Triangles(800));
         assert_eq!(said(1.05, bound(0.7)), None);
+        let (edges, grains, _) = said(4.0, bound(0.7)).expect("a warning");
+        assert!((edges - 4.0).abs() < 1e-5 && (grains - 2.0).abs() < 1e-5, "{edges} {grains}");
         let (_, grains, triangles) = said(1.4, bound(0.7)).expect("a warning");
         assert_eq!((grains, triangles.abs_diff(4 * 1600) <= 1), (1.0, true), "{triangles}");
         // Where longer edges are asked for than a grain, they are none too long.

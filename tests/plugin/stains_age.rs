@@ -66,7 +66,7 @@ fn there_is_no_rust_on_fresh_paint_and_more_and_more_later() {
 
 /// A coating that separates at once, and neither tears nor moves nor gathers dust by itself.
 fn held() -> Coating {
-    let mut settings = CoatingSettings::default();
+    let mut settings = CoatingSettings::from(Preset::Paper);
     settings.adhesion.mean = 0.0;
     settings.adhesion.deviation = 0.0;
     settings.tearing.binding = 1e6;

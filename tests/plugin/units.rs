@@ -30,17 +30,17 @@ fn coating() -> Coating {
     quick_coating().with_seed(7)
 }
 
-/// A plate in an app, aged by 80 steps and damaged by hand, with the pieces that fell off.
+/// A plate in an app, aged by 50 steps and damaged by hand, with the pieces that fell off.
 fn aged(mut app: App, mesh: f32, scale: f32) -> (App, Entity, Vec<PieceFallen>) {
     let mesh = large_plate(&mut app, mesh);
     let place = Transform::from_xyz(3.0, 0.0, 0.0).with_scale(Vec3::splat(scale));
     let plate = app.world_mut().spawn((Mesh3d(mesh), coating(), place)).id();
     wait_for_films(&mut app, 1);
-    take_steps(&mut app, 80);
+    take_steps(&mut app, 50);
     let mut fallen = messages::<PieceFallen>(&mut app);
     // One more, knocked off by hand.
     let film = app.world().get::<FilmMesh>(plate).expect("a film");
-    let face = film.topology.live_faces().nth(40).expect("a face");
+    let face = film.topology.live_faces().nth(10).expect("a face");
     app.world_mut().commands().entity(plate).queue(FilmEdit::StripFace(face));
     app.world_mut().flush();
     fallen.extend(messages::<PieceFallen>(&mut app));
