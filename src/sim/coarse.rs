@@ -18,7 +18,7 @@ const COARSEST: f32 = 2.0;
 ///
 /// The film was built for `target`, which is what the coating's `resolution` came to. It is too coarse if that is a
 /// [`FilmResolution::Grain`] for which there were not triangles enough and its mean edge is more than 1.1 grains, or if
-/// its mean edge is more than two grains. Whoever asks for a number of triangles, or for edges, gets them without a word.
+/// its mean edge is more than two grains. Whoever asks for a number of triangles or for edges gets them without a word.
 ///
 /// ```
 /// use bevy_coating::{
