@@ -50,7 +50,7 @@ fn height_of_end(h: f32, settings: &CoatingSettings) -> f32 {
     let (loose, mut scratch) = (LoosePieces::default(), BendScratch::default());
     for _ in 0..100 {
         let mut changes = FilmChanges::default();
-        let pace = SolvePace { dt: 0.02, sweeps: 300, momentum: 0.99, tick: false, quality: SolverQuality::Default };
+        let pace = SolvePace { dt: 0.02, sweeps: 600, momentum: 0.997, tick: false, quality: SolverQuality::Default };
         bend_film(&mut mesh, &mut constraints, &loose, &settings.deform, pace, &mut changes, &mut scratch);
     }
     mesh.validate().unwrap();
@@ -67,9 +67,9 @@ fn a_strip_bends_to_the_same_cylinder_on_every_film() {
     let curvature = settings.deform.bend_limit / (0.577_35 * settings.scale.grain);
     // The curl begins in the middle of the column of triangles between what is held and what is free.
     let exact = |h: f32| (1.0 - ops::cos(curvature * (1.0 - h))) / curvature;
-    for h in [0.1f32, 0.05] {
+    for h in [0.05f32, 0.04] {
         let found = height_of_end(h, &settings);
-        assert!((found / exact(h) - 1.0).abs() < 0.1, "h {h}: {found}, not {}", exact(h));
+        assert!((found / exact(h) - 1.0).abs() < 0.02, "h {h}: {found}, not {}", exact(h));
     }
 }
 
