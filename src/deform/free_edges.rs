@@ -14,7 +14,8 @@ use crate::{
 /// exp(-(x / r)^2): d is the distance of its faces' centroids and s the grain, so that a free strip bends to the same
 /// curvature on every film; x is the distance from the nearest free edge over connected film (torn edges, edges of
 /// removed faces, and the open border where it has separated), and r the
-/// [`curl_reach`](crate::settings::DeformSettings::curl_reach).
+/// [`curl_reach`](crate::settings::DeformSettings::curl_reach), shortened on coarse films to the root of r^2 - 1.8 h^2,
+/// with h the mean edge, but to no less than 0.6 r.
 ///
 /// ```
 /// use bevy_coating::{

@@ -122,7 +122,8 @@ macro_rules! with_stages {
                 bend_limit: f32 = 0.35, closed(0.0, std::f32::consts::PI);
                 /// Distance in grains from a free edge over which curls fade, by [`Rules::Grain`]: at x the target
                 /// angles of edges are narrowed by the share exp(-(x / reach)^2). Film that is held all around lies
-                /// flat. On a film under way a change acts from the next crack on. Found by trial.
+                /// flat. On coarse films the reach is shorter, so that they lift no farther than fine ones. On a film
+                /// under way a change acts from the next crack on. Found by trial.
                 curl_reach: f32 = 2.0, closed(0.1, 1000.0);
                 /// Number of plain solver sweeps per unit age. It sets how far flakes lift, since bending is a slow
                 /// creep that does not come to an end within a step. At 0 the film does not bend. On a film under way a

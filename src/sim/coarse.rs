@@ -71,7 +71,8 @@ mod tests {
     use super::*;
     use crate::{remesh::sample, settings::CoatingSettings};
 
-    /// What is said of a plate of 800 triangles, whose grain is asked to be its mean edge over `edges`.
+    /// Returns edge and grain, in grains asked for, and triangles of the warning about a plate of 800 triangles,
+    /// whose grain is asked to be its mean edge over `edges`.
     fn said(edges: f32, (resolution, target): (FilmResolution, FilmTarget)) -> Option<(f32, f32, u32)> {
         let plate = sample::plate(800, 7).expect("a plate").film;
         let mesh = FilmMesh::new(plate.positions, &plate.triangles).expect("a manifold");
