@@ -44,6 +44,12 @@ impl Binding {
         ops::exp(-f32::from(self.torn_faces) * (decay as f32 - self.since))
     }
 
+    /// Returns whether any force tears the edge. An infinite binding is set by hand and holds for ever.
+    #[inline]
+    pub fn may_tear(&self) -> bool {
+        self.drawn < f32::INFINITY
+    }
+
     /// Returns how many times the film's decay counts for this edge: the number of its faces that have a torn edge.
     #[inline]
     pub fn torn_faces(&self) -> u8 {

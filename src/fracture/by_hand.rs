@@ -7,7 +7,7 @@ use super::{
     scratch::FractureScratch,
     separation::let_go,
     stripping::{debris, strip},
-    tearing::tear_edge,
+    tear_edge::tear_edge,
 };
 use crate::{
     film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId},

@@ -26,6 +26,7 @@ impl FilmForces {
             bend_weights: _,
             gamma,
             loose_since,
+            necks,
             predictions: _,
         } = self;
         to.floats(separated_age);
@@ -45,6 +46,9 @@ impl FilmForces {
         if !loose_since.is_empty() {
             to.floats(loose_since);
         }
+        if !necks.is_empty() {
+            to.list(necks.iter().flat_map(|neck| [neck.at.0, neck.held_by[0].0, neck.held_by[1].0]));
+        }
     }
 }
 
@@ -54,8 +58,11 @@ mod tests {
 
     use super::*;
     use crate::{
-        film::{FilmMesh, Geometry, Grain, HalfEdgeId, tests::grid, words::assert_each_counts},
-        fracture::drawn::{Contraction, Drawn},
+        film::{FilmMesh, Geometry, Grain, HalfEdgeId, VertexId, tests::grid, words::assert_each_counts},
+        fracture::{
+            drawn::{Contraction, Drawn},
+            forces::Neck,
+        },
         settings::CoatingSettings,
     };
 
@@ -64,7 +71,7 @@ mod tests {
         let (positions, triangles) = grid(2, 2);
         let mesh = FilmMesh::new(positions, &triangles).unwrap();
         let forces = FilmForces::new(&mesh, &CoatingSettings::default(), 3);
-        let changes: [fn(&mut FilmForces); 23] = [
+        let changes: [fn(&mut FilmForces); 24] = [
             |forces| forces.separated_age[1] = 0.5,
             |forces| forces.tips[1] = Vec3::X,
             |forces| forces.torn_edges = 1,
@@ -96,6 +103,7 @@ mod tests {
             |forces| forces.gamma = 0.5,
             |forces| forces.drawn.grain = Some(Grain { length: 0.5 }),
             |forces| forces.loose_since = vec![0.5],
+            |forces| forces.necks = vec![Neck { at: VertexId(0), held_by: [VertexId(1); 2] }],
         ];
         assert_each_counts(&forces, FilmForces::write_state, &changes);
     }

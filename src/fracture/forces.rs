@@ -80,8 +80,19 @@ pub struct FilmForces {
     pub(super) gamma: f32,
     /// Age at which each face came loose, with the piece that it is in; infinite before. Empty by the paper's rules.
     pub(super) loose_since: Vec<f32>,
+    /// Necks that would tear if one of their sides were not held. None by the paper's rules.
+    pub(super) necks: Vec<Neck>,
     /// Predicted events and connected pieces.
     pub(super) predictions: Predictions,
+}
+
+/// A neck that would tear if one of its two sides were not held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Neck {
+    /// Vertex at the border of the film at which the neck ends.
+    pub at: VertexId,
+    /// An attached vertex on each side; the same twice where one side is too large for a flap.
+    pub held_by: [VertexId; 2],
 }
 
 impl FilmForces {

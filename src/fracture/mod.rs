@@ -27,12 +27,15 @@ mod event_queue;
 mod follow;
 mod forces;
 mod hold;
+mod neck;
+mod neck_search;
 mod predictions;
 mod relief;
 mod scratch;
 mod separation;
 mod sigmoid;
 mod stripping;
+mod tear_edge;
 mod tearing;
 mod validate;
 

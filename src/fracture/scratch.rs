@@ -1,6 +1,6 @@
 //! Holds the buffers of tearing and stripping.
 
-use super::relief::ReliefScratch;
+use super::{neck_search::NeckScratch, relief::ReliefScratch};
 use crate::film::{FaceId, HalfEdgeId, PieceScratch, VertexId};
 
 /// Buffers of [`tear`](super::tear) and [`strip`](super::strip).
@@ -23,6 +23,8 @@ pub struct FractureScratch {
     pub(super) attached: Vec<VertexId>,
     /// Buffers of the search for faces beside a tear.
     pub(super) relief: ReliefScratch,
+    /// Buffers of the search for necks.
+    pub(super) necks: NeckScratch,
 }
 
 /// An edge that would tear in the state at the start of the step.

@@ -1,15 +1,16 @@
 //! Tears edges where contraction exceeds binding, so that cracks run nearly straight (VC 5.2).
 
-use bevy_math::{Vec3, ops};
+use bevy_math::Vec3;
 
 use super::{
-    balance::{Balance, direction},
+    balance::Balance,
     forces::FilmForces,
-    relief::{ReliefScratch, relieve_beside},
+    neck::tear_necks,
     scratch::{Candidate, FractureScratch},
+    tear_edge::tear_edge,
 };
 use crate::{
-    film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, TearEnd, VertexId},
+    film::{FilmChanges, FilmMesh, HalfEdgeId},
     settings::TearingSettings,
 };
 
@@ -24,6 +25,9 @@ use crate::{
 /// crack (edges at no crack tip come last), then the one with the largest ratio of contraction to binding, then the one
 /// with the lower id. Because each tear relieves the faces beside it, tearing all edges at once would double the
 /// number of torn edges and make cracks crooked. An edge that a tear brings beyond its binding waits for the next step.
+///
+/// By [`Rules::Grain`](crate::settings::Rules::Grain) flaps then break off that hang on by a neck of at most
+/// [`neck_width`](TearingSettings::neck_width).
 ///
 /// `gravity` is a unit vector in the film's space: where a tear splits a vertex, the faces that lie lower keep it. Torn
 /// edges and new vertices are appended to [`FilmChanges::torn`], [`FilmChanges::torn_ends`] and
@@ -137,67 +141,5 @@ fn tear_in_order(
             forces.predictions.tears.make_due(edge.0);
         }
     }
-}
-
-/// Tears `edge` and keeps forces, predictions and `changes` in step.
-pub(super) fn tear_edge(
-    mesh: &mut FilmMesh,
-    forces: &mut FilmForces,
-    settings: &TearingSettings,
-    edge: HalfEdgeId,
-    gravity: Vec3,
-    changes: &mut FilmChanges,
-    scratch: &mut PieceScratch,
-    relief: &mut ReliefScratch,
-) {
-    let (a, b) = (mesh.topology.origin(edge), mesh.topology.target(edge));
-    let Some(twin) = mesh.topology.bound_twin(edge) else { return };
-    let cracks = [a, b].map(|end| forces.tips[end.index()]);
-    let Some(ends) = mesh.tear(edge, gravity) else { return };
-    if let Some(grain) = forces.grain() {
-        relieve_beside(mesh, forces, settings, grain, edge, relief);
-    }
-    for h in [edge, twin] {
-        if forces.grain().is_none() {
-            forces.relieve(h.face(), settings.contraction_kept);
-        }
-        for h in h.face().half_edges() {
-            forces.update_decay(&mesh.topology, h);
-        }
-    }
-    for (end, (other, crack)) in ends.into_iter().zip([(b, cracks[1]), (a, cracks[0])]) {
-        match end {
-            // The crack ends here now and points away from the other end.
-            TearEnd::Opened(tip) => {
-                let ahead = direction(mesh, other, tip);
-                forces.tips[tip.index()] = match forces.grain() {
-                    Some(grain) => {
-                        let run = mesh.geometry.rest_lengths[edge.index()];
-                        remember(crack, ahead, run / (settings.memory * grain.length))
-                    }
-                    None => ahead,
-                };
-                forces.make_edges_due(&mesh.topology, tip);
-            }
-            TearEnd::Split { kept, duplicate } => {
-                forces.duplicate_vertex(kept);
-                changes.duplicates.push(duplicate);
-            }
-        }
-    }
-    let FilmForces { predictions, separated_age, .. } = forces;
-    let is_attached = |v: VertexId| separated_age[v.index()] == f32::INFINITY;
-    predictions.pieces.edge_torn(&mesh.topology, edge, &ends, scratch, is_attached);
-    forces.torn_edges += 1;
-    changes.torn.push(edge);
-    changes.torn_ends.push(ends);
-}
-
-/// Returns the direction of a crack that came along `crack` (zero for one that begins) and ran on along `ahead` by
-/// `run`, in lengths over which it forgets by the factor e. So a crack keeps its direction over the same distance
-/// whatever the length of its edges.
-pub(super) fn remember(crack: Vec3, ahead: Vec3, run: f32) -> Vec3 {
-    let kept = ops::exp(-run);
-    let direction = (crack * kept + ahead * (1.0 - kept)).normalize_or_zero();
-    if crack == Vec3::ZERO || direction == Vec3::ZERO { ahead } else { direction }
+    tear_necks(mesh, forces, settings, gravity, changes, scratch);
 }

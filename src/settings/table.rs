@@ -86,6 +86,11 @@ macro_rules! with_stages {
                 /// it knows that of its last edge only. On a film under way a change acts on later tears. Found by
                 /// trial.
                 memory: f32 = 1.8, closed(0.01, 100.0);
+                /// Width in grains of the widest neck at which a flap breaks off, by [`Rules::Grain`]: a part of the
+                /// film that nothing holds but this neck, and that is larger than a square of twice its width. At 0
+                /// flakes may hang on the thinnest stalk. On a film under way a change acts on what tears from then
+                /// on. Found by trial.
+                neck_width: f32 = 1.0, closed(0.0, 10.0);
                 /// Binding force of an edge. Keep it above twice the highest contraction that is reached, or all edges
                 /// tear at once. On a film under way edges beside cracks keep the share that they have left. Found by
                 /// trial.

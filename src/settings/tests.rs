@@ -22,7 +22,7 @@ fn defaults_are_those_of_the_method() {
         adhesion:(mean:2.1,deviation:0.7,octaves:2,frequency:5.0,wavelength:7.2,decay:1.0),\
         bending:(gain:0.33333334,gamma:2.0),\
         tearing:(contraction:1.0,contraction_growth:1.0,contraction_kept:0.3,relief:0.95,relief_reach:0.6,memory:1.8,\
-        binding:6.0,binding_decay:1.3,\
+        neck_width:1.0,binding:6.0,binding_decay:1.3,\
         weak_probability:0.01,weak_factor:0.001,alpha:0.45,beta:0.2),\
         deform:(narrowing_rate:0.7,bend_limit:0.35,curl_reach:2.0,sweeps_per_age:10000.0),\
         stripping:(fall_faces:6,hold:0.02,hold_area:2.5),\

@@ -6,7 +6,7 @@ use core::f32::consts::PI;
 use super::{hexagon, lattice, separate_all};
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, VertexId},
-    fracture::{FilmForces, FractureScratch, age_forces, bending_force, separate, strip, tear, tearing::remember},
+    fracture::{FilmForces, FractureScratch, age_forces, bending_force, separate, strip, tear, tear_edge::remember},
     remesh::sample,
     settings::{CoatingSettings, Preset, Rules},
 };

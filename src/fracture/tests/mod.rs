@@ -2,6 +2,7 @@
 
 mod follow;
 mod grain;
+mod necks;
 mod predictions;
 
 use core::f32::consts::PI;

@@ -68,7 +68,7 @@ fn any_film() -> impl Strategy<Value = FilmMesh> {
 /// Sets one of the settings that fracture depends on.
 fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
     let tearing = &mut settings.tearing;
-    let (setting, max) = match which % 23 {
+    let (setting, max) = match which % 24 {
         0 => (&mut settings.adhesion.decay, 3.0),
         1 => (&mut settings.bending.gain, 0.6),
         2 => (&mut settings.bending.gamma, 6.0),
@@ -93,7 +93,8 @@ fn set(settings: &mut CoatingSettings, which: u8, share: f32) {
         18 => (&mut tearing.memory, 10.0),
         19 => (&mut settings.stripping.hold, 0.2),
         20 => (&mut settings.stripping.hold_area, 10.0),
-        21 => {
+        21 => (&mut tearing.neck_width, 3.0),
+        22 => {
             settings.scale.rules = if share < 0.3 { Rules::Paper } else { Rules::Grain };
             settings.scale.grain = 0.02 + share;
             return;

@@ -29,6 +29,8 @@ fn other(field: &Field, settings: &CoatingSettings) -> f32 {
         (0.0, 1.0) if (value - 0.5).abs() < 0.1 => 0.1,
         (0.0, 1.0) => 1.0 - value,
         (-1.0, 1.0) => -value,
+        // A little wider a neck need not find another flap on a film of 800 triangles.
+        _ if field.path == "tearing.neck_width" => 3.0 * value,
         _ if range.whole => 2.0 * value,
         _ if value == 0.0 => 5.0,
         _ => 1.6 * value,
@@ -39,7 +41,8 @@ fn other(field: &Field, settings: &CoatingSettings) -> f32 {
 
 /// Returns quick settings with the rules by which `field` acts, and a grain of about the mean edge of [`curved`].
 fn rules_of(field: &Field) -> CoatingSettings {
-    let by_grain = ["scale.grain", "adhesion.wavelength", "tearing.relief", "tearing.memory", "deform.curl_reach"];
+    let by_grain =
+        ["scale.grain", "adhesion.wavelength", "tearing.relief", "tearing.memory", "tearing.neck", "deform.curl_reach"];
     let by_grain = by_grain.iter().any(|path| field.path.starts_with(path)) || field.path.starts_with("stripping.hold");
     let mut settings = quick();
     settings.scale.grain = 0.055;
