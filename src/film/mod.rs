@@ -25,6 +25,7 @@
 mod changes;
 pub(crate) mod direction;
 mod edit;
+mod face_grid;
 mod geometry;
 mod grain;
 mod handles;
@@ -36,6 +37,7 @@ pub(crate) mod words;
 
 pub use changes::{Debris, FilmChanges};
 pub use edit::TearEnd;
+pub use face_grid::FaceGrid;
 pub use geometry::{Geometry, signed_dihedral};
 pub use grain::Grain;
 pub use handles::{FaceId, HalfEdgeId, VertexId};
