@@ -163,6 +163,7 @@ impl Geometry {
 /// assert!(signed_dihedral(a, b, left, Vec3::new(1.0, 0.0, 0.5)).unwrap() < PI, "valley");
 /// assert!(signed_dihedral(a, b, left, Vec3::new(1.0, 0.0, -0.5)).unwrap() > PI, "ridge");
 /// ```
+#[inline]
 pub fn signed_dihedral(p1: Vec3, p2: Vec3, p3: Vec3, p4: Vec3) -> Option<f32> {
     let edge = p2 - p1;
     let length = edge.length_squared().sqrt();

@@ -68,11 +68,33 @@ impl Duplicates {
         self.rest_fans[original.index()].get().is_some_and(|first| topology.rest_twin(first).is_some())
     }
 
+    /// Returns what [`Duplicates::lowest`] does. `known` holds the answers so far, and takes this one: one for each
+    /// original vertex, `NONE` where it is not known.
+    pub fn lowest_known(
+        &self,
+        mesh: &FilmMesh,
+        original: VertexId,
+        pull: Vec3,
+        known: &mut [VertexId],
+    ) -> Option<VertexId> {
+        let known = &mut known[original.index()];
+        if *known == VertexId::NONE {
+            *known = self.lowest(mesh, original, pull)?;
+        }
+        Some(*known)
+    }
+
     /// Returns the film vertex of `original` whose faces lie lowest along `pull` on average (at a tie the one with the
     /// lowest id), or `None` if no face is left.
     pub fn lowest(&self, mesh: &FilmMesh, original: VertexId, pull: Vec3) -> Option<VertexId> {
+        let with_faces = || self.of(original).filter(|&v| mesh.topology.has_faces(v));
+        let mut all = with_faces();
+        let only = all.next()?;
+        if all.next().is_none() {
+            return Some(only);
+        }
         let mut lowest: Option<(f32, VertexId)> = None;
-        for v in self.of(original).filter(|&v| mesh.topology.has_faces(v)) {
+        for v in with_faces() {
             let (mut depth, mut faces) = (0.0, 0.0);
             for h in mesh.topology.fan(v) {
                 depth += mesh.geometry.rest_centroid(&mesh.topology, h.face()).dot(pull);

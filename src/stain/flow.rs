@@ -24,13 +24,14 @@ pub(super) struct Flow {
     /// Original vertices in the order of their depth along the pull. Run-off goes to strictly deeper vertices only, so
     /// one pass in this order takes it all the way down.
     order: Vec<u32>,
-    /// Place of each original vertex in `order`.
+    /// Place in `order` of each film vertex: that of its original.
     ranks: Vec<u32>,
     /// One bit for each place in `order`: whether there may be run-off at the vertex.
     awake: Vec<u64>,
-    /// Way from each film vertex.
+    /// Ways from the film: those from original vertices in the order of their places, so that a pass reads them one
+    /// after another, then those from duplicates.
     film: Vec<Outflow>,
-    /// Way from the metal under each original vertex.
+    /// Way from the metal at each place in `order`.
     metal: Vec<Outflow>,
     /// Lowest film vertex of each original vertex that has been split; `NONE` where it is not known yet.
     lowest: Vec<VertexId>,
@@ -52,17 +53,24 @@ impl Flow {
         }
     }
 
-    /// Appends a duplicate.
-    pub fn append(&mut self) {
+    /// Appends a duplicate of `original`.
+    pub fn append(&mut self, original: VertexId) {
+        self.ranks.push(self.ranks[original.index()]);
         self.film.push(Outflow::STALE);
+    }
+
+    /// Returns where the way from film vertex `v` is kept in `film`.
+    fn slot(&self, v: VertexId) -> usize {
+        if v.index() < self.order.len() { self.ranks[v.index()] as usize } else { v.index() }
     }
 
     /// Marks the ways from `original` as out of date, because connectivity there has changed.
     pub fn mark_stale(&mut self, duplicates: &Duplicates, original: VertexId) {
         for v in duplicates.of(original) {
-            self.film[v.index()] = Outflow::STALE;
+            let slot = self.slot(v);
+            self.film[slot].rate = Outflow::STALE.rate;
         }
-        self.metal[original.index()] = Outflow::STALE;
+        self.metal[self.ranks[original.index()] as usize].rate = Outflow::STALE.rate;
         self.lowest[original.index()] = VertexId::NONE;
     }
 
@@ -90,6 +98,9 @@ impl Flow {
         for (rank, &v) in self.order.iter().enumerate() {
             self.ranks[v as usize] = rank as u32;
         }
+        for v in self.order.len()..self.ranks.len() {
+            self.ranks[v] = self.ranks[mesh.topology.original(VertexId::new(v)).index()];
+        }
         self.awake.fill(0);
         for v in awake {
             self.wake(VertexId(v));
@@ -102,9 +113,9 @@ impl Flow {
         self.awake[rank as usize / 64] & (1 << (rank % 64)) != 0
     }
 
-    /// Notes that there may be run-off at `original`.
-    pub fn wake(&mut self, original: VertexId) {
-        let rank = self.ranks[original.index()];
+    /// Notes that there may be run-off at the place of film vertex `v`.
+    pub fn wake(&mut self, v: VertexId) {
+        let rank = self.ranks[v.index()];
         self.awake[rank as usize / 64] |= 1 << (rank % 64);
     }
 
@@ -154,29 +165,27 @@ impl Flow {
 
     /// Returns the film vertex of `original` that lies lowest along the pull, or `None` if no face is left there.
     pub fn lowest(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Option<VertexId> {
-        let known = &mut self.lowest[original.index()];
-        if *known == VertexId::NONE {
-            *known = duplicates.lowest(mesh, original, self.pull)?;
-        }
-        Some(*known)
+        duplicates.lowest_known(mesh, original, self.pull, &mut self.lowest)
     }
 
     /// Returns the way from film vertex `v`, which is `original` or a duplicate of it.
     pub fn film_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, v: VertexId) -> Outflow {
-        if self.film[v.index()].is_stale() {
+        let slot = self.slot(v);
+        if self.film[slot].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.film[v.index()] = Outflow::of_film(mesh, duplicates, original, v, way, &mut self.ring);
+            self.film[slot] = Outflow::of_film(mesh, duplicates, &mut self.lowest, original, v, way, &mut self.ring);
         }
-        self.film[v.index()]
+        self.film[slot]
     }
 
     /// Returns the way from the metal under `original`.
     pub fn metal_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Outflow {
-        if self.metal[original.index()].is_stale() {
+        let rank = self.ranks[original.index()] as usize;
+        if self.metal[rank].is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.metal[original.index()] = Outflow::of_metal(mesh, duplicates, original, way, &mut self.ring);
+            self.metal[rank] = Outflow::of_metal(mesh, duplicates, &mut self.lowest, original, way, &mut self.ring);
         }
-        self.metal[original.index()]
+        self.metal[rank]
     }
 }
 

@@ -199,7 +199,7 @@ fn carry(stains: &mut StainFields, amount: f32, outflow: &Outflow) {
 fn wake_stains(mesh: &FilmMesh, stains: &mut StainFields) {
     for v in mesh.topology.all_vertices() {
         if stains.film.stained[v.index()] > 0.0 && stains.film.moisture[v.index()] > DRY {
-            stains.flow.wake(mesh.topology.original(v));
+            stains.flow.wake(v);
         }
     }
     for &v in &stains.open {

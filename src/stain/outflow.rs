@@ -89,10 +89,12 @@ impl Outflow {
     }
 
     /// Computes the way from film vertex `v`, which is `original` or a duplicate of it. It leads over the faces of `v`;
-    /// at the upper lip of a crack it leads to the film below and into the crack.
+    /// at the upper lip of a crack it leads to the film below and into the crack. `lowest` holds the lowest film
+    /// vertices that are known.
     pub fn of_film(
         mesh: &FilmMesh,
         duplicates: &Duplicates,
+        lowest: &mut [VertexId],
         original: VertexId,
         v: VertexId,
         way: Way,
@@ -124,7 +126,7 @@ impl Outflow {
         if closed {
             return outflow;
         }
-        match duplicates.lowest(mesh, original, pull) {
+        match duplicates.lowest_known(mesh, original, pull, lowest) {
             Some(below) if below != v => {
                 outflow.add(Target::film(below), over * (1.0 - into_cracks));
                 outflow.add(Target::metal(original), over * into_cracks);
@@ -136,17 +138,22 @@ impl Outflow {
 
     /// Computes the way from the metal under `original`. It leads over bare metal, and onto the film where film covers
     /// the metal further down.
-    pub fn of_metal(mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, way: Way, ring: &mut Ring) -> Self {
+    pub fn of_metal(
+        mesh: &FilmMesh,
+        duplicates: &Duplicates,
+        lowest: &mut [VertexId],
+        original: VertexId,
+        way: Way,
+        ring: &mut Ring,
+    ) -> Self {
         let (pull, ..) = way;
         let topology = &mesh.topology;
         let rest = &mesh.geometry.rest_positions;
-        let to = |w: VertexId| {
+        let mut to = |w: VertexId| {
             let w = topology.original(w);
             let bare = duplicates.rest_fan(topology, w).any(|h| !topology.is_live(h.face()));
-            let target = match duplicates.lowest(mesh, w, pull) {
-                Some(film) if !bare => Target::film(film),
-                _ => Target::metal(w),
-            };
+            let film = if bare { None } else { duplicates.lowest_known(mesh, w, pull, lowest) };
+            let target = film.map_or(Target::metal(w), Target::film);
             (target, rest[w.index()] - rest[original.index()])
         };
         ring.clear();
@@ -263,7 +270,7 @@ impl Fan<'_> {
         let count = self.ring.len();
         let sectors = if self.closed { count } else { count.saturating_sub(1) };
         (0..sectors).find_map(|i| {
-            let j = (i + 1) % count;
+            let j = if i + 1 < count { i + 1 } else { 0 };
             let [u, v] = [i, j].map(|k| self.ring.get(k).map_or(Vec3::ZERO, |&(_, way)| way));
             let area = u.cross(v).dot(self.normal);
             let (a, b) = (direction.cross(v).dot(self.normal), u.cross(direction).dot(self.normal));

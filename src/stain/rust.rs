@@ -195,7 +195,7 @@ impl Pass<'_> {
                 let part = amount * share;
                 layer.wet[v.index()] += part / area;
                 left -= part;
-                stains.flow.wake(self.mesh.topology.original(v));
+                stains.flow.wake(v);
             }
         }
         // Where the shares add up to 1 only rounding is left.

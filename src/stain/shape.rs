@@ -4,7 +4,7 @@ use core::f32::consts::PI;
 
 use bevy_math::Vec3;
 
-use crate::film::{FilmMesh, HalfEdgeId, VertexId};
+use crate::film::{FilmMesh, HalfEdgeId, VertexId, signed_dihedral};
 
 /// Orientation and curvature of a surface at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,12 +20,22 @@ impl Shape {
     /// Measures the film at vertex `v` in its present positions.
     pub fn now(mesh: &FilmMesh, v: VertexId) -> Self {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
+        let at = |v: VertexId| geometry.positions[v.index()];
         let mut normal = Vec3::ZERO;
         let mut mean = Mean::default();
         for h in topology.fan(v) {
-            let [a, b, c] = topology.corners(h.face()).map(|v| geometry.positions[v.index()]);
+            let [a, b, c] = h.face().half_edges();
+            let [a, b, c] = [at(topology.origin(a)), at(topology.origin(b)), at(topology.origin(c))];
             normal += (b - a).cross(c - a);
-            mean.add(geometry.dihedral(topology, h.next()));
+            // As `Geometry::dihedral` at the edge opposite `v`, whose face has been looked up already.
+            mean.add(topology.bound_twin(h.next()).and_then(|twin| {
+                let [apex, from, to] = match h.index() % 3 {
+                    0 => [a, b, c],
+                    1 => [b, c, a],
+                    _ => [c, a, b],
+                };
+                signed_dihedral(from, to, apex, at(topology.apex(twin)))
+            }));
         }
         Self { normal: normal.normalize_or_zero(), dihedral: mean.finish() }
     }

@@ -15,42 +15,82 @@ pub(crate) const MOST_LAYERS: f32 = 1.0;
 /// missed for being slow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Shown {
-    film: Vec<[f32; 4]>,
-    metal: Vec<[f32; 4]>,
+    film: ShownLayer,
+    metal: ShownLayer,
+    corrosion: Vec<f32>,
     /// Unit vector along the streaks, or zero.
     streaks: Vec3,
-}
-
-/// Returns what display shows of each vertex of `layer`; `None` for a vertex that has no faces.
-fn looks<'a>(layer: &'a StainLayer, corrosion: &'a [f32]) -> impl Iterator<Item = Option<[f32; 4]>> + 'a {
-    (0..layer.areas.len()).map(move |v| {
-        let corrosion = corrosion.get(v).copied().unwrap_or_default();
-        let rust = layer.rust(v);
-        let rust = if rust < MOST_LAYERS { rust } else { MOST_LAYERS };
-        (layer.areas[v] > 0.0).then(|| [rust, layer.dust[v], layer.moisture[v], corrosion])
-    })
 }
 
 impl Shown {
     /// Returns whether any stain looks different from how it was shown: of the film, of the metal with its corrosion,
     /// or the direction of streaks.
     pub fn differs(&self, film: &StainLayer, metal: &StainLayer, corrosion: &[f32], streaks: Vec3) -> bool {
-        let far = |(now, shown): (Option<[f32; 4]>, &[f32; 4])| {
-            now.is_some_and(|now| now.iter().zip(shown).any(|(now, shown)| !((now - shown).abs() <= STEP)))
-        };
-        self.film.len() != film.areas.len()
-            || self.metal.len() != metal.areas.len()
-            || self.streaks.distance_squared(streaks.normalize_or_zero()) > STEP * STEP
-            || looks(film, &[]).zip(&self.film).any(far)
-            || looks(metal, corrosion).zip(&self.metal).any(far)
+        self.streaks.distance_squared(streaks.normalize_or_zero()) > STEP * STEP
+            || self.film.differs(film)
+            || self.metal.differs(metal)
+            || any_far(corrosion, &self.corrosion, &metal.areas)
     }
 
     /// Notes how stains look now.
     pub fn note(&mut self, film: &StainLayer, metal: &StainLayer, corrosion: &[f32], streaks: Vec3) {
-        self.film.clear();
-        self.film.extend(looks(film, &[]).map(Option::unwrap_or_default));
-        self.metal.clear();
-        self.metal.extend(looks(metal, corrosion).map(Option::unwrap_or_default));
+        self.film.note(film);
+        self.metal.note(metal);
+        self.corrosion.clear();
+        self.corrosion.extend(corrosion);
         self.streaks = streaks.normalize_or_zero();
     }
+}
+
+/// What display showed of a layer. Fields as long as the layer's.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct ShownLayer {
+    rust: Vec<f32>,
+    dust: Vec<f32>,
+    moisture: Vec<f32>,
+}
+
+impl ShownLayer {
+    fn differs(&self, now: &StainLayer) -> bool {
+        self.rust.len() != now.areas.len()
+            || self.any_rust_far(now)
+            || any_far(&now.dust, &self.dust, &now.areas)
+            || any_far(&now.moisture, &self.moisture, &now.areas)
+    }
+
+    fn any_rust_far(&self, now: &StainLayer) -> bool {
+        let chunks = now.wet.chunks(CHUNK).zip(now.stained.chunks(CHUNK));
+        chunks.zip(self.rust.chunks(CHUNK).zip(now.areas.chunks(CHUNK))).any(|((wet, stained), (shown, areas))| {
+            let now = wet.iter().zip(stained).map(|(wet, stained)| seen_rust(wet + stained));
+            now.zip(shown).zip(areas).fold(false, |any, ((now, shown), area)| any | is_far(now, *shown, *area))
+        })
+    }
+
+    fn note(&mut self, now: &StainLayer) {
+        let Self { rust, dust, moisture } = self;
+        rust.clear();
+        rust.extend(now.wet.iter().zip(&now.stained).map(|(wet, stained)| seen_rust(wet + stained)));
+        for (shown, now) in [(dust, &now.dust), (moisture, &now.moisture)] {
+            shown.clear();
+            shown.extend(now);
+        }
+    }
+}
+
+/// Values that are compared before a look at the result: compilers make packed code of a loop without a way out.
+const CHUNK: usize = 64;
+
+fn seen_rust(rust: f32) -> f32 {
+    if rust < MOST_LAYERS { rust } else { MOST_LAYERS }
+}
+
+/// Returns whether a value looks different from what was shown. Where there are no faces nothing is seen.
+fn is_far(now: f32, shown: f32, area: f32) -> bool {
+    (area > 0.0) & !((now - shown).abs() <= STEP)
+}
+
+fn any_far(now: &[f32], shown: &[f32], areas: &[f32]) -> bool {
+    now.chunks(CHUNK).zip(shown.chunks(CHUNK)).zip(areas.chunks(CHUNK)).any(|((now, shown), areas)| {
+        now.iter().zip(shown).zip(areas).fold(false, |any, ((now, shown), area)| any | is_far(*now, *shown, *area))
+    })
 }

@@ -6,7 +6,7 @@ use super::{
     fields::{RustSource, StainFields},
     sources::{end_source, judge},
 };
-use crate::film::{FilmChanges, FilmMesh, TearEnd, VertexId, direction::unit_or_zero};
+use crate::film::{FilmChanges, FilmMesh, HalfEdgeId, TearEnd, VertexId, direction::unit_or_zero};
 
 /// Openness of the metal beside a crack or beside a bare place: rust creeps under the film.
 const BESIDE: f32 = 0.15;
@@ -73,7 +73,7 @@ impl StainFields {
         let was_source = self.sources[kept.index()] != RustSource::Never;
         self.sources.push(if was_source { RustSource::Past } else { RustSource::Never });
         self.duplicates.append(original);
-        self.flow.append();
+        self.flow.append(original);
     }
 }
 
@@ -99,11 +99,12 @@ fn update_place(mesh: &FilmMesh, stains: &mut StainFields, original: VertexId) {
     };
     raise(original, if bare { BARE } else { IN_CRACK });
     flow.mark_stale(duplicates, original);
-    for h in duplicates.rest_fan(topology, original) {
-        for side in [h.next(), h.previous()] {
-            let neighbour = topology.original(topology.origin(side));
-            raise(neighbour, BESIDE);
-            flow.mark_stale(duplicates, neighbour);
-        }
+    // Two faces that follow each other share a neighbour.
+    let mut fan = duplicates.rest_fan(topology, original).peekable();
+    let first = fan.peek().map(|h| h.next());
+    for side in first.into_iter().chain(fan.map(HalfEdgeId::previous)) {
+        let neighbour = topology.original(topology.origin(side));
+        raise(neighbour, BESIDE);
+        flow.mark_stale(duplicates, neighbour);
     }
 }
