@@ -14,7 +14,7 @@ use super::{
     film::{BuiltFilm, MAX_FILM_TRIANGLES},
     flip,
     loss::ShapeLoss,
-    polish,
+    order, polish,
     reference::Reference,
     relax::{self, Relaxation},
     sites,
@@ -141,7 +141,7 @@ pub(super) fn remesh(
         film.warnings.push(BuildWarning::SmallPartsCoarse { parts: starved, triangles });
     }
     film.warnings.extend(ShapeLoss::of(clean, &film).warning(target));
-    Ok(film)
+    Ok(order::along_curve(film))
 }
 
 /// Returns whether the features are too close together for the count. Facets that force needles on the film are given

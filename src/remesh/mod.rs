@@ -17,6 +17,7 @@ mod frame;
 mod isotropic;
 mod loss;
 mod noise;
+mod order;
 mod polish;
 mod project;
 mod reference;

@@ -41,8 +41,17 @@ pub struct FilmMeasures {
     /// Largest length strain |l - l0| / l0 of any length constraint.
     pub strain_max: Option<f64>,
     /// 90th percentile (nearest rank) of the lift of separated vertices that have faces: the height over the plane of
-    /// their rest position, in mean rest edges.
+    /// their rest position, in mean rest edges. The coarser a film is, the larger a share of its vertices lies at torn
+    /// edges, which lift most: use the percentiles by area to compare films.
     pub lift_p90: Option<f64>,
+    /// Median by area of the lift of the film that has separated and is left, in metres: at least half of its area is
+    /// lifted by no more. Each vertex stands for a third of the rest area of its faces, at its height over the plane of
+    /// its rest position.
+    pub lift_area_p50_m: Option<f64>,
+    /// 90th percentile by area of the same lift, in metres.
+    pub lift_area_p90_m: Option<f64>,
+    /// 99th percentile by area of the same lift, in metres.
+    pub lift_area_p99_m: Option<f64>,
     /// Rust that sources have given off so far, in layers times square metres. It is the sum of the wet, the stained
     /// and the dripped rust.
     pub rust_emitted: f64,

@@ -28,7 +28,7 @@ impl FilmState {
     /// Measures several films together: counts and amounts are added up, shares and means are taken over all films.
     ///
     /// The age is that of the first film, or 0 if there is none. Crack length is relative to the square root of the
-    /// total rest area; the lift of each film is in its own mean edge.
+    /// total rest area; the lift in edges of each film is in its own mean edge.
     ///
     /// ```
     /// use bevy_coating::{remesh::sample, settings::CoatingSettings, sim::FilmState};
@@ -71,6 +71,8 @@ struct Sums {
     strain_max: f64,
     strains: u64,
     heights: Vec<f32>,
+    /// Height and area of each separated vertex that has faces.
+    lifts: Vec<(f32, f32)>,
     budget: RustBudget,
     wet: f64,
     stained: f64,
@@ -168,7 +170,12 @@ impl Sums {
         }
         let topology = &film.mesh.topology;
         let lifted = topology.all_vertices().filter(|&v| topology.has_faces(v) && !film.forces.is_attached(v));
-        self.heights.extend(lifted.map(|v| geometry.height(v) / geometry.mean_edge));
+        for v in lifted {
+            let height = geometry.height(v);
+            self.heights.push(height / geometry.mean_edge);
+            let area = film.stains.film.areas.get(v.index()).copied().unwrap_or_default();
+            self.lifts.push((height, area));
+        }
     }
 
     fn add_stains(&mut self, film: &FilmState) {
@@ -188,6 +195,7 @@ impl Sums {
         let share = |part: u64, whole: u64| (whole > 0).then(|| part as f64 / whole as f64);
         self.heights.sort_unstable_by(f32::total_cmp);
         let rank = (self.heights.len() * 9).div_ceil(10);
+        let [lift_area_p50_m, lift_area_p90_m, lift_area_p99_m] = percentiles_by_area(self.lifts, [0.5, 0.9, 0.99]);
         FilmMeasures {
             age,
             separated: share(self.separated, self.original_vertices),
@@ -208,6 +216,9 @@ impl Sums {
             strain_rms: (self.strains > 0).then(|| (self.strain_squares / self.strains as f64).sqrt()),
             strain_max: (self.strains > 0).then_some(self.strain_max),
             lift_p90: rank.checked_sub(1).and_then(|i| self.heights.get(i)).map(|&h| f64::from(h)),
+            lift_area_p50_m,
+            lift_area_p90_m,
+            lift_area_p99_m,
             rust_emitted: self.budget.emitted,
             rust_wet: self.wet,
             rust_stained: self.stained,
@@ -219,8 +230,46 @@ impl Sums {
     }
 }
 
+/// Returns, for each of the rising `shares`, the least height up to which so much of the area lies. `lifts` are heights
+/// and areas.
+fn percentiles_by_area<const N: usize>(mut lifts: Vec<(f32, f32)>, shares: [f64; N]) -> [Option<f64>; N] {
+    lifts.retain(|&(_, area)| area > 0.0);
+    lifts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let all: f64 = lifts.iter().map(|&(_, area)| f64::from(area)).sum();
+    let (mut below, mut rest) = (0.0, lifts.iter());
+    let mut height = None;
+    shares.map(|share| {
+        while below < share * all
+            && let Some(&(next, area)) = rest.next()
+        {
+            below += f64::from(area);
+            height = Some(f64::from(next));
+        }
+        height
+    })
+}
+
 /// Returns the original vertices at the ends of the edge of `h`.
 fn edge_ends(film: &FilmState, h: HalfEdgeId) -> [VertexId; 2] {
     let topology = &film.mesh.topology;
     [topology.origin(h), topology.target(h)].map(|v| topology.original(v))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_count_area_and_not_vertices() {
+        let of = |lifts: &[(f32, f32)]| percentiles_by_area(lifts.to_vec(), [0.5, 0.9, 0.99]);
+        assert_eq!(of(&[]), [None; 3]);
+        assert_eq!(of(&[(1.0, 0.0), (f32::NAN, f32::NAN)]), [None; 3], "nothing that has an area");
+        assert_eq!(of(&[(2.0, 0.25)]), [Some(2.0); 3]);
+        // Nine narrow places that stand up, and a wide one that lies flat.
+        let mut lifts = vec![(3.0, 0.0625); 9];
+        lifts.push((0.5, 8.0));
+        assert_eq!(of(&lifts), [Some(0.5), Some(0.5), Some(3.0)]);
+        let even: Vec<(f32, f32)> = (1..=100).rev().map(|i| (i as f32, 0.5)).collect();
+        assert_eq!(of(&even), [Some(50.0), Some(90.0), Some(99.0)]);
+    }
 }

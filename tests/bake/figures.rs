@@ -66,6 +66,9 @@ fn figures_have_their_layout_and_agree_with_each_other() {
         "strain_rms",
         "strain_max",
         "lift_p90",
+        "lift_area_p50_m",
+        "lift_area_p90_m",
+        "lift_area_p99_m",
         "rust_emitted",
         "rust_wet",
         "rust_stained",
@@ -75,10 +78,12 @@ fn figures_have_their_layout_and_agree_with_each_other() {
         "moisture_mean",
     ];
     assert_eq!(names, expected.into_iter().collect());
-    for name in ["straightness", "strain_rms", "strain_max", "lift_p90"] {
+    for name in ["straightness", "strain_rms", "strain_max", "lift_p90", "lift_area_p50_m", "lift_area_p90_m"] {
         assert_eq!(timeline[0][name], Value::Null, "{name} of a fresh film");
         assert!(timeline[19][name].is_number(), "{name} of an aged film");
     }
+    let lifts = ["lift_area_p50_m", "lift_area_p90_m", "lift_area_p99_m"].map(|name| number(&timeline[19][name]));
+    assert!(lifts.is_sorted() && lifts[2] > 0.0, "{lifts:?}");
     for name in ["separated", "torn", "stripped", "fallen", "crack_length"] {
         let grows = timeline.windows(2).all(|pair| number(&pair[0][name]) <= number(&pair[1][name]));
         assert!(grows && number(&timeline[0][name]) == 0.0, "{name} is cumulative");

@@ -194,6 +194,23 @@ fn a_fresh_film_measures_nothing() {
         (Some(0.0), Some(0.0), None, None, None)
     );
     assert_eq!((m.pieces, m.loose_pieces, m.crack_tips), (1, 0, 0));
+    assert_eq!((m.lift_area_p50_m, m.lift_area_p90_m, m.lift_area_p99_m), (None, None, None));
+}
+
+#[test]
+fn lift_by_area_is_in_metres_off_the_surface_at_rest() {
+    let piece = sample::curved_plate(300, 1).expect("a piece");
+    let mut film = FilmState::new(&piece.film, &quick(), 1, 100).expect("a manifold");
+    film.age_to(0.6, &quick(), &Environment::default());
+    assert!(film.measure().separated > Some(0.1));
+    let geometry = &mut film.mesh.geometry;
+    for i in 0..geometry.positions.len() {
+        geometry.positions[i] = geometry.rest_positions[i] + 0.01 * geometry.rest_normals[i];
+    }
+    let m = film.measure();
+    for lift in [m.lift_area_p50_m, m.lift_area_p90_m, m.lift_area_p99_m] {
+        assert!((lift.expect("it has separated") - 0.01).abs() < 1e-5, "{lift:?}");
+    }
 }
 
 #[test]
