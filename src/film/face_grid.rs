@@ -72,6 +72,35 @@ impl FaceGrid {
         &self.triangles
     }
 
+    /// Returns the points of the small triangle at the barycentric coordinates `b`, and the weights of these points at
+    /// `b`. Where `b` lies beyond the face, it is the nearest small triangle, and a weight is negative.
+    ///
+    /// ```
+    /// use bevy_coating::film::FaceGrid;
+    /// use bevy_math::Vec3;
+    ///
+    /// let grid = FaceGrid::new(2);
+    /// let b = Vec3::new(0.3, 0.6, 0.1);
+    /// let (points, weights) = grid.locate(b);
+    /// let [p, q, r] = points.map(|i| grid.points()[i as usize]);
+    /// assert!((p * weights.x + q * weights.y + r * weights.z).abs_diff_eq(b, 1e-6));
+    /// ```
+    pub fn locate(&self, b: Vec3) -> ([u32; 3], Vec3) {
+        let n = 1u32 << self.level;
+        let (x, y) = (b.y * n as f32, b.z * n as f32);
+        // Conversions of floats saturate, so nothing is out of range however far `b` lies off.
+        let j = (y.max(0.0) as u32).min(n - 1);
+        let i = (x.max(0.0) as u32).min(n - 1 - j);
+        let (x, y) = (x - i as f32, y - j as f32);
+        let at = |i: u32, j: u32| j * (n + 1) - j * j.saturating_sub(1) / 2 + i;
+        let (origin, right, up) = (at(i, j), at(i + 1, j), at(i, j + 1));
+        // The triangle across the diagonal, if there is one.
+        if x + y > 1.0 && i + j + 1 < n {
+            return ([at(i + 1, j + 1), up, right], Vec3::new(x + y - 1.0, 1.0 - x, 1.0 - y));
+        }
+        ([origin, right, up], Vec3::new(1.0 - x - y, x, y))
+    }
+
     /// Returns the points along the half-edge `k` of the face, from its origin to its target; none unless `k` is 0, 1
     /// or 2.
     pub fn edge(&self, k: usize) -> &[u32] {
@@ -81,7 +110,27 @@ impl FaceGrid {
 
 #[cfg(test)]
 mod tests {
+    use bevy_math::Vec2;
+
     use super::*;
+
+    #[test]
+    fn places_are_found_in_and_beyond_the_face() {
+        for level in 0..=FaceGrid::MOST {
+            let grid = FaceGrid::new(level);
+            for step in 0..400u32 {
+                let (x, y) = ((step % 20) as f32 / 16.0 - 0.1, (step / 20) as f32 / 16.0 - 0.1);
+                let b = Vec3::new(1.0 - x - y, x, y);
+                let (points, weights) = grid.locate(b);
+                assert!(grid.triangles().iter().any(|t| points.iter().all(|p| t.contains(p))), "{points:?}");
+                let [p, q, r] = points.map(|i| grid.points()[i as usize]);
+                assert!((p * weights.x + q * weights.y + r * weights.z).abs_diff_eq(b, 1e-5));
+                let inside = b.min_element() >= 0.0;
+                assert!(!inside || weights.min_element() > -1e-5, "{b}: {weights}");
+            }
+            assert_eq!(grid.locate(Vec3::X), (grid.triangles()[0], Vec3::X));
+        }
+    }
 
     #[test]
     fn grids_cover_the_face() {
@@ -91,7 +140,7 @@ mod tests {
             assert_eq!((grid.points().len(), grid.triangles().len()), ((n + 1) * (n + 2) / 2, n * n));
             // Seen in the plane of two of the coordinates, the small triangles have the same area and winding.
             for t in grid.triangles() {
-                let [a, b, c] = t.map(|i| grid.points()[i as usize].yz());
+                let [a, b, c] = t.map(|i| grid.points()[i as usize]).map(|b| Vec2::new(b.y, b.z));
                 let area = (b - a).perp_dot(c - a);
                 assert!((area * (n * n) as f32 - 1.0).abs() < 1e-4, "{area}");
             }
