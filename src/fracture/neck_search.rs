@@ -171,8 +171,8 @@ impl NeckScratch {
         let Self { sides, path, marks, mark, .. } = self;
         let is_cut = |h: HalfEdgeId, twin: HalfEdgeId| path.iter().any(|&p| p == h || p == twin);
         loop {
-            for side in 0..2 {
-                let Side { faces, next, area, held_by, too_large } = &mut sides[side];
+            for (side, searched) in sides.iter_mut().enumerate() {
+                let Side { faces, next, area, held_by, too_large } = searched;
                 if held_by.is_some() || *too_large {
                     continue;
                 }
