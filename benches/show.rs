@@ -10,7 +10,7 @@
 mod common;
 
 use bevy_coating::{
-    appearance::{DisplayChanges, FilmAppearance},
+    appearance::{Detail, DisplayChanges, FilmAppearance},
     remesh::sample::TestPiece,
     settings::CoatingSettings,
     sim::FilmState,
@@ -18,6 +18,7 @@ use bevy_coating::{
 use divan::{Bencher, counter::ItemsCount};
 
 const SIZES: [u32; 3] = [3_000, 10_000, 100_000];
+const FINE_SIZES: [u32; 2] = [3_000, 10_000];
 
 fn main() {
     divan::main();
@@ -31,15 +32,17 @@ fn separated(piece: &TestPiece) -> FilmState {
     film
 }
 
-fn shown(piece: &TestPiece, film: &FilmState) -> FilmAppearance {
-    FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains)
+fn shown(piece: &TestPiece, film: &FilmState, level: u32) -> FilmAppearance {
+    let FilmState { mesh, forces, stains, .. } = film;
+    let detail = Detail { level, ..Detail::default() };
+    FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).expect("a clean plate")
 }
 
 /// Updates the appearance after each `change` of the film.
-fn update(bencher: Bencher, triangles: u32, changes: DisplayChanges, change: impl Fn(&mut FilmState, f32)) {
+fn update(bencher: Bencher, triangles: u32, level: u32, changes: DisplayChanges, change: impl Fn(&mut FilmState, f32)) {
     let piece = common::plate(triangles);
     let mut film = separated(&piece);
-    let mut shown = shown(&piece, &film);
+    let mut shown = shown(&piece, &film, level);
     let mut sign = 1.0;
     bencher.counter(ItemsCount::new(triangles)).bench_local(|| {
         sign = -sign;
@@ -48,11 +51,11 @@ fn update(bencher: Bencher, triangles: u32, changes: DisplayChanges, change: imp
     });
 }
 
-#[divan::bench(args = SIZES)]
-fn moving(bencher: Bencher, triangles: u32) {
+/// Moves every vertex.
+fn move_all(bencher: Bencher, triangles: u32, level: u32) {
     let mut moved = DisplayChanges::default();
     moved.moved = true;
-    update(bencher, triangles, moved, |film, sign| {
+    update(bencher, triangles, level, moved, |film, sign| {
         for (i, p) in film.mesh.geometry.positions.iter_mut().enumerate() {
             p.z += sign * 1e-3 * (1 + i % 3) as f32;
         }
@@ -60,20 +63,42 @@ fn moving(bencher: Bencher, triangles: u32) {
 }
 
 #[divan::bench(args = SIZES)]
+fn moving(bencher: Bencher, triangles: u32) {
+    move_all(bencher, triangles, 0);
+}
+
+/// The same with 16 triangles for each.
+#[divan::bench(args = FINE_SIZES)]
+fn moving_fine(bencher: Bencher, triangles: u32) {
+    move_all(bencher, triangles, 2);
+}
+
+#[divan::bench(args = SIZES)]
 fn still(bencher: Bencher, triangles: u32) {
-    update(bencher, triangles, DisplayChanges::default(), |_, _| {});
+    update(bencher, triangles, 0, DisplayChanges::default(), |_, _| {});
 }
 
 #[divan::bench(args = SIZES)]
 fn stained(bencher: Bencher, triangles: u32) {
     let mut stained = DisplayChanges::default();
     stained.stains = true;
-    update(bencher, triangles, stained, |_, _| {});
+    update(bencher, triangles, 0, stained, |_, _| {});
+}
+
+/// Makes all parts.
+fn make(bencher: Bencher, triangles: u32, level: u32) {
+    let piece = common::plate(triangles);
+    let film = separated(&piece);
+    bencher.counter(ItemsCount::new(triangles)).bench_local(|| shown(&piece, &film, level));
 }
 
 #[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]
 fn new(bencher: Bencher, triangles: u32) {
-    let piece = common::plate(triangles);
-    let film = separated(&piece);
-    bencher.counter(ItemsCount::new(triangles)).bench_local(|| shown(&piece, &film));
+    make(bencher, triangles, 0);
+}
+
+/// The same with 16 triangles for each.
+#[divan::bench(args = FINE_SIZES, sample_count = 20, sample_size = 1)]
+fn new_fine(bencher: Bencher, triangles: u32) {
+    make(bencher, triangles, 2);
 }

@@ -24,7 +24,10 @@ pub use crate::{
     plugin::CoatingWeatheringPlugin,
 };
 pub use crate::{
-    appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
+    appearance::{
+        Detail,
+        shading::{FilmShading, MetalShading, PrimerShading, StainShading},
+    },
     deform::SolverQuality,
     remesh::FilmResolution,
     settings::{CoatingSettings, Preset},

@@ -26,6 +26,9 @@ pub struct Options {
     /// Triangles of the film on the sign's plate.
     #[arg(long, default_value_t = 8000, value_parser = clap::value_parser!(u32).range(100..=200_000))]
     pub triangles: u32,
+    /// How finely paint is shown: each triangle of a film by 4 to this power.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=4))]
+    pub level: u32,
 }
 
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,10 @@ use bevy::{
 
 use super::{outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather};
 use crate::{
-    appearance::shading::{FilmShading, MetalShading, PrimerShading, StainShading},
+    appearance::{
+        Detail,
+        shading::{FilmShading, MetalShading, PrimerShading, StainShading},
+    },
     deform::SolverQuality,
     remesh::FilmResolution,
     settings::{CoatingSettings, Preset, SettingsError},
@@ -98,6 +101,10 @@ pub struct Coating {
     /// Sides and holes of backs and metal where the prop's material is not a `StandardMaterial`. Default:
     /// [`PropOutline::default`], front sides without holes.
     pub outline: PropOutline,
+    /// How finely the film is shown, and how its torn edges look. Default: [`Detail::default`], the film's own
+    /// triangles. From level 1 on the film follows the prop's own surface however coarse it is, curls are smooth, torn
+    /// edges chipped, and the paint has a thickness: for props that are looked at from nearby.
+    pub detail: Detail,
 }
 
 impl Default for Coating {
@@ -116,6 +123,7 @@ impl Default for Coating {
             stain_display: StainDisplay::default(),
             shading: FilmShading::default(),
             outline: PropOutline::default(),
+            detail: Detail::default(),
         }
     }
 }
@@ -297,6 +305,7 @@ impl Coating {
             start_age: self.start_age,
             past_weather: self.past_weather.filter(|_| self.start_age > 0.0),
             steps_per_age: self.steps_per_age,
+            detail: self.detail,
         }
     }
 }
@@ -311,11 +320,12 @@ pub(crate) struct FilmKey {
     /// Weather of the past; `None` also where there is no past.
     pub past_weather: Option<CoatingWeather>,
     pub steps_per_age: u32,
+    pub detail: Detail,
 }
 
 impl FilmKey {
     /// Returns everything that keys are compared by.
-    fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32) {
+    fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32, [u32; 3]) {
         let (resolution, number) = match self.resolution {
             FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
             FilmResolution::Grain { share, max_triangles } => {
@@ -327,7 +337,9 @@ impl FilmKey {
             let CoatingWeather { wind, gusts, rain, sun } = weather;
             [wind.x, wind.y, wind.z, gusts, rain.x, rain.y, rain.z, sun.x, sun.y, sun.z].map(f32::to_bits)
         });
-        (self.seed, resolution, number, self.start_age.to_bits(), weather, self.steps_per_age)
+        let Detail { level, chips, thickness } = self.detail;
+        let detail = [level, chips.to_bits(), thickness.to_bits()];
+        (self.seed, resolution, number, self.start_age.to_bits(), weather, self.steps_per_age, detail)
     }
 }
 

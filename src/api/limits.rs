@@ -37,6 +37,9 @@ impl Coating {
         self.checked_rate()?;
         check_field("start_age", self.start_age, 0.0..=MAX_START_AGE, "0 to 10")?;
         check_field("steps_per_age", steps, 1.0..=most_steps, "1 to 100000")?;
+        if let Some((field, found, range)) = self.detail.out_of_range() {
+            return Err(CoatingFault::Field { field, found, range });
+        }
         self.resolution.validate()?;
         match &self.settings {
             SettingsSource::Inline(settings) => Ok(settings.validate()?),
@@ -63,7 +66,7 @@ fn check_field(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{remesh::FilmResolution, settings::CoatingSettings, surface::BuildError};
+    use crate::{appearance::Detail, remesh::FilmResolution, settings::CoatingSettings, surface::BuildError};
 
     #[test]
     fn fields_out_of_range_are_named() {
@@ -71,11 +74,23 @@ mod tests {
             [-1e-9, 1000.1, f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|rate| Coating::default().with_rate(rate));
         let ages = [-1e-9, 10.1, f64::NAN, f64::INFINITY].map(|age| Coating::default().with_start_age(age));
         let steps = [0, 100_001, u32::MAX].map(|steps| Coating::default().with_steps_per_age(steps));
-        let faults = [("rate", rates.to_vec()), ("start_age", ages.to_vec()), ("steps_per_age", steps.to_vec())];
+        let details = [(5, 0.2), (0, -0.1), (2, 1.1), (2, f32::NAN)].map(|(level, chips)| Coating {
+            detail: Detail { level, chips, ..Detail::default() },
+            ..Coating::default()
+        });
+        let faults = [
+            ("detail.", details.to_vec()),
+            ("rate", rates.to_vec()),
+            ("start_age", ages.to_vec()),
+            ("steps_per_age", steps.to_vec()),
+        ];
         for (name, coatings) in faults {
             for coating in coatings {
                 let fault = coating.validate();
-                assert!(matches!(fault, Err(CoatingFault::Field { field, .. }) if field == name), "{fault:?}");
+                assert!(
+                    matches!(fault, Err(CoatingFault::Field { field, .. }) if field.starts_with(name)),
+                    "{fault:?}"
+                );
             }
         }
         let mut settings = CoatingSettings::default();

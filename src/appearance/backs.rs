@@ -65,7 +65,7 @@ impl Backs {
         for ((part, behind), front) in parts.iter_mut().zip(behind).zip(fronts) {
             part.positions.resize(behind.len(), [0.0; 3]);
             part.normals.resize(behind.len(), [0.0; 3]);
-            gather(&mut part.corners, &front.corners, behind);
+            gather(&mut part.keys, &front.keys, behind);
             gather(&mut part.uvs, &front.uvs, behind);
             gather(&mut part.uvs_1, &front.uvs_1, behind);
             gather(&mut part.colors, &front.colors, behind);
@@ -95,7 +95,7 @@ impl Backs {
 }
 
 /// Fills `to` with the values of the vertices `behind`; leaves it empty where the front has no values.
-fn gather<T: Copy>(to: &mut Vec<T>, from: &[T], behind: &[u32]) {
+pub(super) fn gather<T: Copy>(to: &mut Vec<T>, from: &[T], behind: &[u32]) {
     to.clear();
     to.extend(behind.iter().filter_map(|&vertex| from.get(vertex as usize)));
 }

@@ -85,7 +85,7 @@ impl CornerAttributes {
 }
 
 /// Interpolates the corner values `values` at `sites`. Values that are missing count as zero.
-fn sample<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output = T>>(
+pub(super) fn sample<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output = T>>(
     values: &[T],
     sites: &[SurfaceSite],
 ) -> Vec<T> {

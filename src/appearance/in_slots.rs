@@ -5,7 +5,7 @@ use super::{FilmAppearance, MeshPart};
 impl FilmAppearance {
     /// Returns the backs of the flakes of those slots that `wanted` asks for, in one part.
     pub fn backs_in(&self, wanted: impl Fn(usize) -> bool) -> MeshPart {
-        join(&self.backs.parts, wanted)
+        join(self.all_backs(), wanted)
     }
 
     /// Returns the bare metal of those slots that `wanted` asks for, in one part.
@@ -20,7 +20,7 @@ impl FilmAppearance {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn metal_in(&self, wanted: impl Fn(usize) -> bool) -> MeshPart {
-        join(&self.metal.parts, wanted)
+        join(self.all_metal(), wanted)
     }
 }
 
@@ -37,7 +37,7 @@ fn join(parts: &[MeshPart], wanted: impl Fn(usize) -> bool) -> MeshPart {
         joined.stains.extend_from_slice(&part.stains);
         joined.rest.extend_from_slice(&part.rest);
         joined.rest_normals.extend_from_slice(&part.rest_normals);
-        joined.corners.extend_from_slice(&part.corners);
+        joined.keys.extend_from_slice(&part.keys);
         joined.indices.extend(part.indices.iter().map(|&vertex| first + vertex));
     }
     joined

@@ -62,7 +62,7 @@ impl Metal {
                     let original = topology.original(topology.origin(h));
                     let v = original.index();
                     originals.push(original);
-                    part.corners.push(h);
+                    part.keys.push(h.0);
                     part.rest.push(geometry.rest_positions[v].to_array());
                     part.rest_normals.push(attributes.normals[h.index()].to_array());
                     let outwards = if face_slots.is_flipped(f) { depth } else { -depth };

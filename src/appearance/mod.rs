@@ -32,8 +32,11 @@
 
 mod backs;
 mod changes;
+mod coarse;
 mod corners;
+mod detail;
 mod face_slots;
+mod fine;
 mod in_slots;
 mod metal;
 mod moves;
@@ -42,26 +45,24 @@ mod part;
 pub mod shading;
 #[cfg(test)]
 mod tests;
+mod turn;
 mod wedges;
 
 pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;
+pub use detail::Detail;
 pub use part::MeshPart;
 
 use crate::{
-    film::{FilmMesh, HalfEdgeId, Topology},
+    film::FilmMesh,
     fracture::FilmForces,
     remesh::BuiltFilm,
     stain::StainFields,
-    surface::Surface,
+    surface::{BuildError, Surface},
 };
-use backs::Backs;
+use coarse::CoarseSurface;
 use face_slots::FaceSlots;
-use metal::Metal;
-use moves::Moves;
-use normals::CornerFrames;
-use part::vertex_stains;
-use wedges::Wedges;
+use fine::FineSurface;
 
 /// Distance between a flake's front and its back, the thickness of the paint, in mean edge lengths of the film.
 pub const FILM_THICKNESS: f32 = 0.01;
@@ -74,16 +75,17 @@ pub const METAL_DEPTH: f32 = 0.02;
 /// The module's page has an [example](self).
 #[derive(Clone, Debug)]
 pub struct FilmAppearance {
-    attributes: CornerAttributes,
     face_slots: FaceSlots,
-    frames: CornerFrames,
-    wedges: Wedges,
-    moves: Moves,
-    fronts: Vec<MeshPart>,
-    backs: Backs,
-    metal: Metal,
+    shown: Shown,
     /// [`DisplayChanges::epoch`] of the state that the parts show.
     epoch: u32,
+}
+
+/// What a film is shown by.
+#[derive(Clone, Debug)]
+enum Shown {
+    Coarse(Box<CoarseSurface>),
+    Fine(Box<FineSurface>),
 }
 
 impl FilmAppearance {
@@ -98,41 +100,78 @@ impl FilmAppearance {
     ) -> Self {
         let attributes = CornerAttributes::sample(built, surface, mesh);
         let face_slots = FaceSlots::new(built, mesh.topology.face_count());
-        let mut appearance = Self {
-            frames: CornerFrames::new(mesh, &attributes),
-            wedges: Wedges::new(mesh, &attributes, &face_slots),
-            moves: Moves::default(),
-            fronts: vec![MeshPart::default(); face_slots.slot_count()],
-            backs: Backs::new(face_slots.slot_count()),
-            metal: Metal::new(face_slots.slot_count()),
-            attributes,
-            face_slots,
-            epoch: 0,
-        };
-        appearance.update(mesh, forces, stains, DisplayChanges::everything());
-        appearance
+        let coarse = CoarseSurface::new(mesh, attributes, &face_slots);
+        Self { face_slots, shown: Shown::Coarse(Box::new(coarse)), epoch: 0 }.up_to_date(mesh, forces, stains)
+    }
+
+    /// Does the same as [`new`](Self::new), with the film shown as finely as `detail` says.
+    ///
+    /// Above level 0 the points of the fine triangles lie on the prop's own surface, so details of the prop that are
+    /// finer than the film are there; the time that takes is that of a part of building the film.
+    ///
+    /// # Errors
+    /// Those of [`clean`](crate::surface::clean) for a surface that no film can be built on.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     appearance::{Detail, FilmAppearance}, remesh::sample, settings::CoatingSettings, sim::FilmState,
+    /// };
+    ///
+    /// let (piece, settings) = (sample::plate(200, 1)?, CoatingSettings::default());
+    /// let film = FilmState::new(&piece.film, &settings, 0, 100).ok_or("an empty film")?;
+    /// let detail = Detail { level: 2, ..Detail::default() };
+    /// let fine = FilmAppearance::with_detail(
+    ///     &piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains, detail,
+    /// )?;
+    /// assert_eq!(fine.front(0).map(|front| front.indices.len() / 3), Some(16 * 200));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_detail(
+        built: &BuiltFilm,
+        surface: &Surface,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        detail: Detail,
+    ) -> Result<Self, BuildError> {
+        if detail.level == 0 {
+            return Ok(Self::new(built, surface, mesh, forces, stains));
+        }
+        let attributes = CornerAttributes::sample(built, surface, mesh);
+        let face_slots = FaceSlots::new(built, mesh.topology.face_count());
+        let grain = forces.grain().map_or(mesh.geometry.mean_edge, |grain| grain.length);
+        let fine = FineSurface::new(built, surface, mesh, &attributes, &face_slots, grain, detail)?;
+        Ok(Self { face_slots, shown: Shown::Fine(Box::new(fine)), epoch: 0 }.up_to_date(mesh, forces, stains))
+    }
+
+    fn up_to_date(mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
+        self.update(mesh, forces, stains, DisplayChanges::everything());
+        self
     }
 
     /// Returns the number of slots. Each primitive of the prop is a slot and has a material of its own.
     pub fn slot_count(&self) -> usize {
-        self.fronts.len()
+        self.face_slots.slot_count()
     }
 
     /// Returns the front of the paint in one slot; `None` if `slot` is not below [`slot_count`](Self::slot_count).
     pub fn front(&self, slot: usize) -> Option<&MeshPart> {
-        self.fronts.get(slot)
+        match &self.shown {
+            Shown::Coarse(coarse) => coarse.fronts.get(slot),
+            Shown::Fine(fine) => fine.fronts.get(slot),
+        }
     }
 
     /// Returns the backs of the flakes in one slot, without tangents; `None` if `slot` is not below
     /// [`slot_count`](Self::slot_count).
     pub fn backs(&self, slot: usize) -> Option<&MeshPart> {
-        self.backs.parts.get(slot)
+        self.all_backs().get(slot)
     }
 
     /// Returns the bare metal in one slot, without tangents; `None` if `slot` is not below
     /// [`slot_count`](Self::slot_count).
     pub fn metal(&self, slot: usize) -> Option<&MeshPart> {
-        self.metal.parts.get(slot)
+        self.all_metal().get(slot)
     }
 
     /// Hides slot `slot` for good: its faces have no front, no back and no metal from the next update on, which must
@@ -152,111 +191,25 @@ impl FilmAppearance {
     pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields, changes: DisplayChanges) {
         let replaced = std::mem::replace(&mut self.epoch, changes.epoch) != changes.epoch;
         let changes = if replaced { DisplayChanges::everything() } else { changes };
-        let DisplayChanges { topology: tore, exposure: exposed, stains: stained, .. } = changes;
-        let topology = &mesh.topology;
-        if tore {
-            self.wedges.renew(topology, &self.face_slots);
-            self.write_front_attributes(mesh);
-            self.write_front_indices(topology);
-        }
-        // What is new or has new neighbours is looked at like what moved.
-        let moved = (changes.moved || tore) && self.moves.follow(mesh, tore);
-        if moved {
-            self.frames.turn_faces(mesh, &self.attributes, &self.moves);
-            self.frames.add_up(topology, &self.moves);
-            self.write_front_frames(mesh);
-        }
-        if tore || exposed {
-            self.backs.renew(topology, forces, &self.face_slots, &self.wedges, &self.fronts);
-        }
-        if moved || tore || exposed {
-            self.backs.follow(&self.fronts, mesh.geometry.mean_edge * FILM_THICKNESS);
-        }
-        if exposed {
-            let depth = mesh.geometry.mean_edge * METAL_DEPTH;
-            self.metal.renew(mesh, forces, &self.face_slots, &self.wedges, &self.attributes, depth);
-        }
-        if tore || stained {
-            self.write_front_stains(topology, stains);
-        }
-        if tore || exposed || stained {
-            self.backs.stain(&self.fronts);
-        }
-        if exposed || stained {
-            self.metal.stain(stains);
+        match &mut self.shown {
+            Shown::Coarse(coarse) => coarse.update(mesh, forces, stains, &self.face_slots, changes),
+            Shown::Fine(fine) => fine.update(mesh, forces, stains, &self.face_slots, changes),
         }
     }
 
-    /// Resizes the front parts and copies the attributes that do not change as the film moves.
-    fn write_front_attributes(&mut self, mesh: &FilmMesh) {
-        for (slot, part) in self.fronts.iter_mut().enumerate() {
-            let corners = self.wedges.corners(slot);
-            let count = corners.len();
-            part.positions.resize(count, [0.0; 3]);
-            part.normals.resize(count, [0.0; 3]);
-            part.tangents.resize(if self.attributes.tangents.is_empty() { 0 } else { count }, [0.0; 4]);
-            copy(&mut part.uvs, &self.attributes.uvs, corners);
-            copy(&mut part.uvs_1, &self.attributes.uvs_1, corners);
-            copy(&mut part.colors, &self.attributes.colors, corners);
-            let rest = |&h| mesh.geometry.rest_positions[mesh.topology.origin(h).index()].to_array();
-            part.corners.clear();
-            part.corners.extend_from_slice(corners);
-            part.rest.clear();
-            part.rest.extend(corners.iter().map(rest));
-            copy(&mut part.rest_normals, &self.attributes.normals, corners);
+    /// Returns the backs of each slot.
+    fn all_backs(&self) -> &[MeshPart] {
+        match &self.shown {
+            Shown::Coarse(coarse) => &coarse.backs.parts,
+            Shown::Fine(fine) => &fine.backs.parts,
         }
     }
 
-    /// Writes the stains of every front vertex.
-    fn write_front_stains(&mut self, topology: &Topology, stains: &StainFields) {
-        for (slot, part) in self.fronts.iter_mut().enumerate() {
-            part.stains.clear();
-            part.stains.extend(self.wedges.corners(slot).iter().map(|&h| {
-                let v = topology.origin(h);
-                let (film, metal) = (v.index(), topology.original(v).index());
-                let layer = &stains.film;
-                vertex_stains(layer.rust(film), layer.dust[film], layer.moisture[film], stains.corrosion[metal])
-            }));
+    /// Returns the bare metal of each slot.
+    fn all_metal(&self) -> &[MeshPart] {
+        match &self.shown {
+            Shown::Coarse(coarse) => &coarse.metal.parts,
+            Shown::Fine(fine) => &fine.metal.parts,
         }
-    }
-
-    /// Writes the triangles of the front parts.
-    fn write_front_indices(&mut self, topology: &Topology) {
-        for part in &mut self.fronts {
-            part.indices.clear();
-        }
-        for f in topology.live_faces().filter(|&f| !self.face_slots.is_hidden(f)) {
-            let corners = self.face_slots.corners(f).map(|h| self.wedges.vertex_of(h));
-            if let Some(part) = self.fronts.get_mut(self.face_slots.slot(f)) {
-                part.indices.extend(corners);
-            }
-        }
-    }
-
-    /// Writes positions, normals and tangents of the front vertices whose faces moved.
-    fn write_front_frames(&mut self, mesh: &FilmMesh) {
-        let Self { fronts, wedges, frames, attributes, moves, .. } = self;
-        for (slot, part) in fronts.iter_mut().enumerate() {
-            for (i, &h) in wedges.corners(slot).iter().enumerate() {
-                let v = mesh.topology.origin(h);
-                if !moves.is_turned(v) {
-                    continue;
-                }
-                part.positions[i] = mesh.geometry.positions[v.index()].to_array();
-                let normal = frames.normal(&mesh.topology, attributes, h);
-                part.normals[i] = normal.to_array();
-                if let Some(tangent) = part.tangents.get_mut(i) {
-                    *tangent = frames.tangent(&mesh.topology, attributes, h, normal).to_array();
-                }
-            }
-        }
-    }
-}
-
-/// Fills `to` with the attribute at each of `corners`; leaves it empty if the prop does not have the attribute.
-fn copy<T: Copy + Into<[f32; N]>, const N: usize>(to: &mut Vec<[f32; N]>, from: &[T], corners: &[HalfEdgeId]) {
-    to.clear();
-    if !from.is_empty() {
-        to.extend(corners.iter().map(|h| from[h.index()].into()));
     }
 }

@@ -1,7 +1,6 @@
 //! Defines [`MeshPart`], the vertex arrays of one part of a film's appearance.
 
 use super::shading::StainSample;
-use crate::film::HalfEdgeId;
 use crate::stain::shown::MOST_LAYERS;
 
 /// Vertices and triangles of one part of a film's appearance (front, backs or metal), in the film's space.
@@ -46,9 +45,9 @@ pub struct MeshPart {
     pub rest: Vec<[f32; 3]>,
     /// Normal of each vertex at rest, of unit length.
     pub rest_normals: Vec<[f32; 3]>,
-    /// Corner of the film that each vertex stands for. It is the same while film tears elsewhere, so that a vertex can
-    /// be found again when vertices are numbered afresh.
-    pub corners: Vec<HalfEdgeId>,
+    /// Number of each vertex, unique in the part. It is the same while film tears elsewhere, so that a vertex can be
+    /// found again when vertices are numbered afresh.
+    pub keys: Vec<u32>,
     /// Vertex indices, three a triangle. Fronts and metal are wound as the prop's own triangles, backs the other way.
     pub indices: Vec<u32>,
 }
@@ -82,7 +81,7 @@ impl MeshPart {
         self.stains.clear();
         self.rest.clear();
         self.rest_normals.clear();
-        self.corners.clear();
+        self.keys.clear();
         self.indices.clear();
     }
 }

@@ -87,7 +87,7 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     film.quality = quality;
     built.warnings.extend(coarser_than_grain(&film.mesh, key.resolution, target, &settings.scale));
     turn.rest().await;
-    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint);
+    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint, key.detail)?;
     turn.rest().await;
     let shelter = shelter.map(|order| cast(order.shifted(origin), &mut film)).unwrap_or_default();
     turn.rest().await;

@@ -76,7 +76,8 @@ pub fn bake(
     };
     let digest = hasher.finalize().to_hex().to_string();
     let stats = Stats { schema: STATS_SCHEMA, input, film, run, seconds: stopwatch.seconds(), timeline, digest };
-    Ok(Baked { origin, copyright, props, films, materials, warnings, carried, left, stopwatch, stats })
+    let detail = options.detail;
+    Ok(Baked { origin, copyright, props, films, materials, warnings, carried, left, detail, stopwatch, stats })
 }
 
 /// Ages of the timeline: every twentieth up to `age`, and `age` itself.

@@ -8,7 +8,7 @@ use super::{
     stopwatch::Stopwatch,
     warning::BakeWarning,
 };
-use crate::sim::FilmState;
+use crate::{appearance::Detail, sim::FilmState};
 
 /// An aged model: props, their films and figures.
 ///
@@ -41,6 +41,8 @@ pub struct Baked {
     pub carried: Carried,
     /// Meshes without a document that are left as they are: glass, and what was excluded.
     pub(super) left: Vec<ModelMesh>,
+    /// How finely the aged model is written.
+    pub(super) detail: Detail,
     /// Time spent.
     pub(super) stopwatch: Stopwatch,
     /// All figures but the seconds, which run on.

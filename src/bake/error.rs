@@ -138,6 +138,16 @@ pub enum OptionsError {
     /// [`BakeOptions::resolution`](super::BakeOptions::resolution) has a number out of its range.
     #[error(transparent)]
     Resolution(BuildError),
+    /// A field of [`BakeOptions::detail`](super::BakeOptions::detail) is out of its range.
+    #[error("{field} is {found}, not {range}")]
+    Detail {
+        /// Path of the field.
+        field: &'static str,
+        /// Its value.
+        found: f64,
+        /// Its range in words.
+        range: &'static str,
+    },
     /// A setting of the coating is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -5,7 +5,9 @@ use super::{
     limits::{MAX_AGE, MAX_STEPS_PER_AGE, UNITS},
     name_pattern::NamePattern,
 };
-use crate::{deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment};
+use crate::{
+    appearance::Detail, deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment,
+};
 
 /// Options of ageing.
 ///
@@ -48,6 +50,8 @@ pub struct BakeOptions {
     /// Names of nodes, meshes and materials that are left as they are, beside glass, which always is; default none. See
     /// [`NamePattern`] for the wildcards.
     pub exclude: Vec<NamePattern>,
+    /// How finely the aged model is written; default level 0, the triangles of the films.
+    pub detail: Detail,
 }
 
 impl Default for BakeOptions {
@@ -63,6 +67,7 @@ impl Default for BakeOptions {
             seed: 0,
             environment: Environment::default(),
             exclude: Vec::new(),
+            detail: Detail::default(),
         }
     }
 }
@@ -83,6 +88,9 @@ impl BakeOptions {
             return Err(OptionsError::Unit { found: self.metres_per_unit });
         }
         self.resolution.validate().map_err(OptionsError::Resolution)?;
+        if let Some((field, found, range)) = self.detail.out_of_range() {
+            return Err(OptionsError::Detail { field, found, range });
+        }
         Ok(self.settings.validate()?)
     }
 }

@@ -1,10 +1,7 @@
 //! Follows the stains of one part, and colours those vertices whose look has changed.
 
 use super::film_paint::FilmPaint;
-use crate::{
-    appearance::{MeshPart, shading::StainPart},
-    film::HalfEdgeId,
-};
+use crate::appearance::{MeshPart, shading::StainPart};
 
 /// Difference of a stain below which it looks the same: about one level of 255 in colour.
 const SAME_LOOK: f32 = 1.0 / 256.0;
@@ -54,8 +51,8 @@ pub(super) struct StainCanvas {
     shown: Vec<[f32; 4]>,
     /// Colour of each vertex, where colours carry the stains.
     colors: Vec<[f32; 4]>,
-    /// Corner of the film that each coloured vertex stands for.
-    corners: Vec<HalfEdgeId>,
+    /// [Number](MeshPart::keys) of each coloured vertex.
+    keys: Vec<u32>,
     /// Whether the mesh does not show this yet.
     changed: bool,
 }
@@ -75,11 +72,11 @@ impl StainCanvas {
         self.carrier = writer.carrier;
         self.changed |= renewal != Renewal::Nothing;
         if self.carrier == StainCarrier::Nothing {
-            (self.shown, self.colors, self.corners) = (Vec::new(), Vec::new(), Vec::new());
+            (self.shown, self.colors, self.keys) = (Vec::new(), Vec::new(), Vec::new());
             return;
         }
         if self.carrier == StainCarrier::Attributes {
-            (self.colors, self.corners) = (Vec::new(), Vec::new());
+            (self.colors, self.keys) = (Vec::new(), Vec::new());
             if renewal != Renewal::Nothing
                 || self.shown.len() != part.stains.len()
                 || self.shown.iter().zip(&part.stains).any(|(shown, now)| look_different(shown, now))
@@ -90,7 +87,7 @@ impl StainCanvas {
             return;
         }
         if renewal == Renewal::Everything {
-            self.corners.clear();
+            self.keys.clear();
         }
         if renewal != Renewal::Nothing || self.shown.len() != part.stains.len() {
             self.renumber(part);
@@ -110,16 +107,16 @@ impl StainCanvas {
 
     /// Takes over the vertices of `part`. Those that were there before keep their colours.
     fn renumber(&mut self, part: &MeshPart) {
-        let corners = self.corners.iter().map(|h| h.index());
-        let mut places = vec![u32::MAX; corners.clone().max().map_or(0, |highest| highest + 1)];
-        corners.enumerate().for_each(|(i, h)| places[h] = i as u32);
+        let highest = self.keys.iter().max();
+        let mut places = vec![u32::MAX; highest.map_or(0, |&highest| highest as usize + 1)];
+        self.keys.iter().enumerate().for_each(|(i, &key)| places[key as usize] = i as u32);
         let old = |i: usize| {
-            let place = *places.get(part.corners.get(i)?.index())? as usize;
+            let place = *places.get(*part.keys.get(i)? as usize)? as usize;
             Some((*self.shown.get(place)?, *self.colors.get(place)?))
         };
         let new = |i| old(i).unwrap_or(([f32::NAN; 4], [1.0; 4]));
         (self.shown, self.colors) = (0..part.stains.len()).map(new).unzip();
-        self.corners.clone_from(&part.corners);
+        self.keys.clone_from(&part.keys);
     }
 
     /// Returns the attributes that carry the stains.
@@ -189,13 +186,12 @@ mod tests {
     fn vertices_keep_their_colours_when_they_are_numbered_afresh() {
         let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Colors, edge: 0.01 };
-        let corners = |order: &[u32]| order.iter().map(|&h| HalfEdgeId(h)).collect();
         let stains = vec![[0.0, 0.3, 0.0, 0.0]; 3];
-        let before = MeshPart { corners: corners(&[4, 9, 2]), ..part(stains.clone()) };
+        let before = MeshPart { keys: vec![4, 9, 2], ..part(stains.clone()) };
         let mut canvas = StainCanvas::new(&before, writer);
         let [a, b, c] = canvas.colors().try_into().expect("three");
         // The second has gone, another one has come.
-        let after = MeshPart { corners: corners(&[2, 4, 30]), ..part(stains.clone()) };
+        let after = MeshPart { keys: vec![2, 4, 30], ..part(stains.clone()) };
         canvas.follow(&after, writer, Renewal::Vertices);
         assert!(canvas.take_change());
         assert_eq!(canvas.colors()[..2], [c, a]);

@@ -19,14 +19,14 @@ use super::{
 };
 use crate::{
     api::{diagnostics::CoatingTimings, display_cost::DisplayCost, stain_display::StainDisplay},
-    appearance::{DisplayChanges, FilmAppearance, shading::StainPart},
-    film::FilmMesh,
+    appearance::{Detail, DisplayChanges, FilmAppearance, shading::StainPart},
+    film::{FaceGrid, FilmMesh},
     fracture::FilmForces,
     mesh_reader::SlotAttributes,
     remesh::BuiltFilm,
     sim::{FilmState, Stage},
     stain::StainFields,
-    surface::Surface,
+    surface::{BuildError, Surface},
 };
 
 /// Work of colouring a vertex, in vertices that are moved.
@@ -42,7 +42,7 @@ pub(crate) struct FilmDisplay {
     pub(super) space: PartSpace,
     /// Display mode, colours and patterns of the stains.
     pub(super) paint: FilmPaint,
-    /// Mean distance between the film's vertices, in metres.
+    /// Mean distance between the vertices that are shown, in metres.
     pub(super) edge: f32,
     /// Whether the materials have not been updated to `paint` yet.
     #[cfg(feature = "render")]
@@ -76,7 +76,10 @@ pub(super) struct DisplaySlot {
 }
 
 impl FilmDisplay {
-    /// Returns the display of a film at rest.
+    /// Returns the display of a film at rest, shown as finely as `detail` says.
+    ///
+    /// # Errors
+    /// Those of [`FilmAppearance::with_detail`].
     pub fn new(
         film: &FilmState,
         surface: &Surface,
@@ -85,13 +88,15 @@ impl FilmDisplay {
         scale: Vec3,
         origin: Vec3,
         paint: FilmPaint,
-    ) -> Self {
+        detail: Detail,
+    ) -> Result<Self, BuildError> {
         let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None, canvas: StainCanvas::default() };
-        Self {
-            appearance: FilmAppearance::new(built, surface, &film.mesh, &film.forces, &film.stains),
+        let FilmState { mesh, forces, stains, .. } = film;
+        Ok(Self {
+            appearance: FilmAppearance::with_detail(built, surface, mesh, forces, stains, detail)?,
             space: PartSpace::new(scale, origin),
             paint,
-            edge: film.mesh.geometry.mean_edge,
+            edge: mesh.geometry.mean_edge / (1u32 << detail.level.min(FaceGrid::MOST)) as f32,
             #[cfg(feature = "render")]
             // The prop may still wear the materials of an earlier film.
             materials_outdated: true,
@@ -103,7 +108,7 @@ impl FilmDisplay {
             credit: 0.0,
             #[cfg(feature = "render")]
             parts: super::part_handles::PartHandles::default(),
-        }
+        })
     }
 
     /// Brings the appearance up to date with the film as it is put on its prop, and writes the meshes. It runs in the

@@ -7,7 +7,7 @@
 
 use bevy_math::Vec3;
 
-use super::attributes::Attributes;
+use super::seams::Seams;
 use super::topology::Topology;
 use crate::{
     film::{FaceId, HalfEdgeId},
@@ -88,14 +88,10 @@ impl Features {
         normals: &[Vec3],
         Scale { target, triangles, fidelity }: Scale,
     ) -> Self {
-        let attributes = Attributes::new(surface, clean);
+        let seams = Seams::new(surface, clean);
         let positions = &clean.positions;
         let low_poly =
             fidelity == Fidelity::Facets && clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
-        let slot = |f: FaceId| {
-            clean.source.get(f.index()).and_then(|&t| surface.slots.get(t as usize)).copied().unwrap_or_default()
-        };
-        let flipped = |f: FaceId| clean.flipped.get(f.index()).copied().unwrap_or_default();
         let height = |h: HalfEdgeId| {
             let [a, b, c] =
                 [topology.origin(h), topology.target(h), topology.opposite(h)].map(|v| positions[v.index()]);
@@ -125,8 +121,8 @@ impl Features {
             let (f, g) = (h.face(), t.face());
             let cosine = normals[f.index()].dot(normals[g.index()]);
             let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target && is_long(h);
-            let seam = slot(f) != slot(g) || flipped(f) != flipped(g) || attributes.jump(h, t, exact);
-            let uneven = || cosine < FLAT || attributes.bend(topology, positions, h, t, target);
+            let seam = seams.divide(h, t, exact);
+            let uneven = || cosine < FLAT || seams.attributes.bend(topology, positions, h, t, target);
             let kind = if exact && (seam || uneven()) {
                 Kind::Exact
             } else if seam {

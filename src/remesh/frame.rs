@@ -50,6 +50,16 @@ impl Frame {
         })
     }
 
+    /// Returns where a point of the surface is in the frame.
+    pub fn inside(&self, p: Vec3) -> Vec3 {
+        p - self.middle
+    }
+
+    /// Returns where a point in the frame is in the surface's own space.
+    pub fn outside(&self, p: Vec3) -> Vec3 {
+        p + self.middle
+    }
+
     /// Returns the film at the surface's own place.
     ///
     /// # Errors

@@ -6,8 +6,17 @@
 
 use bevy_math::Vec3;
 
-use super::reference::Reference;
+use super::topology::Topology;
 use crate::film::{FaceId, HalfEdgeId};
+
+/// Triangles over which points walk.
+pub(super) trait Ground {
+    fn topology(&self) -> &Topology;
+    /// Returns the corner positions of the triangle.
+    fn triangle(&self, f: FaceId) -> [Vec3; 3];
+    /// Returns whether no walk may cross this edge.
+    fn is_feature(&self, h: HalfEdgeId) -> bool;
+}
 
 /// Point on the clean surface.
 #[derive(Clone, Copy, Debug)]
@@ -22,20 +31,20 @@ pub(super) struct Foot {
 const LONGEST_WALK: usize = 1000;
 
 /// Returns the point of the surface nearest to `p`, found by a walk from `start`.
-pub(super) fn project(reference: &Reference, p: Vec3, start: FaceId) -> Foot {
-    let mut foot = nearest_on_triangle(reference, p, start);
+pub(super) fn project(ground: &impl Ground, p: Vec3, start: FaceId) -> Foot {
+    let mut foot = nearest_on_triangle(ground, p, start);
     let mut distance = foot.position.distance_squared(p);
     for _ in 0..LONGEST_WALK {
         let mut better = None;
         let mut visit = |f: FaceId| {
-            let candidate = nearest_on_triangle(reference, p, f);
+            let candidate = nearest_on_triangle(ground, p, f);
             let d = candidate.position.distance_squared(p);
             if d < distance {
                 distance = d;
                 better = Some(candidate);
             }
         };
-        around(reference, &foot, &mut visit);
+        around(ground, &foot, &mut visit);
         match better {
             Some(next) => foot = next,
             None => break,
@@ -45,11 +54,11 @@ pub(super) fn project(reference: &Reference, p: Vec3, start: FaceId) -> Foot {
 }
 
 /// Visits the triangles that share the point with its own triangle, across edges that are no features.
-fn around(reference: &Reference, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
-    let topology = &reference.topology;
+fn around(ground: &impl Ground, foot: &Foot, visit: &mut dyn FnMut(FaceId)) {
+    let topology = ground.topology();
     let half_edges = foot.triangle.half_edges();
     let w = foot.weights.to_array();
-    let across = |h: HalfEdgeId| topology.twin(h).filter(|_| !reference.is_feature(h));
+    let across = |h: HalfEdgeId| topology.twin(h).filter(|_| !ground.is_feature(h));
     for k in 0..3 {
         // Half-edge k is opposite corner k + 2: the point lies on it if the weight of that corner is 0.
         if w[(k + 2) % 3] > 0.0 {
@@ -89,14 +98,14 @@ pub(super) fn distance_to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
 }
 
 /// Returns the point of a triangle nearest to `p` (Ericson, Real-Time Collision Detection, 5.1.5).
-fn nearest_on_triangle(reference: &Reference, p: Vec3, f: FaceId) -> Foot {
-    let [a, b, c] = reference.triangles[f.index()];
+pub(super) fn nearest_on_triangle(ground: &impl Ground, p: Vec3, f: FaceId) -> Foot {
+    let [a, b, c] = ground.triangle(f);
     let weights = nearest_weights(p, a, b, c);
     Foot { triangle: f, position: a * weights.x + b * weights.y + c * weights.z, weights }
 }
 
 /// Computes in double precision, since sums of products are too inexact on slivers.
-fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
+pub(super) fn nearest_weights(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
     let [p, a, b, c] = [p, a, b, c].map(|v| v.as_dvec3());
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

@@ -5,10 +5,11 @@ use bevy_math::Vec3;
 use super::chains::{Chains, NO_CHAIN};
 use super::features::{Features, Scale};
 use super::noise::drop_noise;
+use super::project::Ground;
 use super::sizing::Sizing;
 use super::topology::Topology;
 use crate::{
-    film::HalfEdgeId,
+    film::{FaceId, HalfEdgeId},
     surface::{CleanSurface, Surface},
 };
 
@@ -53,14 +54,26 @@ impl<'a> Reference<'a> {
         Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing, closeness: 1.0 }
     }
 
-    /// Returns whether the film must follow this edge.
-    #[inline]
-    pub fn is_feature(&self, h: HalfEdgeId) -> bool {
-        self.chain_of[h.index()] != NO_CHAIN
-    }
-
     /// Returns the largest distance of a chain from the chord between two arc lengths, over the scale of the part.
     pub fn strays(&self, chain: u32, from: f32, to: f32) -> f32 {
         self.chains.deviation(self.positions, chain, from, to) / self.sizing.chain_scales[chain as usize]
+    }
+}
+
+impl Ground for Reference<'_> {
+    #[inline]
+    fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    #[inline]
+    fn triangle(&self, f: FaceId) -> [Vec3; 3] {
+        self.triangles[f.index()]
+    }
+
+    /// Returns whether the film must follow this edge.
+    #[inline]
+    fn is_feature(&self, h: HalfEdgeId) -> bool {
+        self.chain_of[h.index()] != NO_CHAIN
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn keep(surface: &Surface, clean: &CleanSurface) -> Result<BuiltFilm,
 /// Turns weights of a clean triangle into weights of the surface triangle it came from.
 ///
 /// The corners of a clean triangle may lie between those of its source.
-fn site(clean: &CleanSurface, foot: &Foot) -> SurfaceSite {
+pub(super) fn site(clean: &CleanSurface, foot: &Foot) -> SurfaceSite {
     let triangle = foot.triangle.index();
     let [a, b, c] = clean.sites[triangle].map(|site| site.weights);
     let weights = a * foot.weights.x + b * foot.weights.y + c * foot.weights.z;

@@ -1,5 +1,6 @@
 //! Properties that every remeshed film must have, on shapes made here.
 
+mod fine;
 mod thin;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -19,6 +19,7 @@ mod attach;
 mod budget;
 mod clock;
 mod clones;
+mod detail;
 mod display;
 mod edits;
 mod grain;

@@ -26,7 +26,7 @@ use super::{
     textures::{Bare, Dressed, Textures, dress},
     warning::BakeWarning,
 };
-use crate::appearance::FilmAppearance;
+use crate::{appearance::FilmAppearance, sim::FilmState};
 use assemble::{assemble, finish_root};
 use buffer::BinaryChunk;
 use document::{Document, Spot};
@@ -37,15 +37,18 @@ use space::Home;
 /// Makes the bytes of a .glb file. Adds what could not be done to the warnings.
 ///
 /// # Errors
-/// [`BakeError::TooLarge`].
+/// [`BakeError::TooLarge`]; [`BakeError::Build`] if a prop's surface is not the one that its film was built on.
 pub fn aged_glb(baked: &mut Baked, stains: StainOutput) -> Result<Vec<u8>, BakeError> {
-    let Baked { props, films, stopwatch, materials: library, warnings, carried, left, .. } = baked;
+    let Baked { props, films, stopwatch, materials: library, warnings, carried, left, detail, origin, .. } = baked;
     let appearances: Vec<FilmAppearance> = stopwatch.mesh(|| {
         let pairs = props.iter().zip(films.iter());
-        pairs
-            .map(|(prop, film)| FilmAppearance::new(&prop.built, &prop.surface, &film.mesh, &film.forces, &film.stains))
-            .collect()
-    });
+        let shown = pairs.map(|(prop, film)| {
+            let FilmState { mesh, forces, stains, .. } = film;
+            FilmAppearance::with_detail(&prop.built, &prop.surface, mesh, forces, stains, *detail)
+                .map_err(|source| BakeError::Build { origin: origin.clone(), mesh: prop.name.clone(), source })
+        });
+        shown.collect::<Result<_, _>>()
+    })?;
     let bare: Vec<Bare> = props.iter().zip(&appearances).map(|(prop, own)| Bare::new(prop, own, library)).collect();
     let dressed: Vec<Dressed> = stopwatch.mesh(|| {
         let mut textures = Textures::default();

@@ -118,7 +118,7 @@ impl Unwrapped {
             stains: pick(&part.stains, &self.sources),
             rest: pick(&part.rest, &self.sources),
             rest_normals: pick(&part.rest_normals, &self.sources),
-            corners: pick(&part.corners, &self.sources),
+            keys: pick(&part.keys, &self.sources),
             indices: self.indices.clone(),
         }
     }

@@ -7,8 +7,10 @@ use std::{
 };
 
 use bevy_coating::{
+    appearance::Detail,
     bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, NamePattern, StainOutput},
     deform::SolverQuality,
+    film::FaceGrid,
     remesh::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution},
     settings::CoatingSettings,
     stain::Environment,
@@ -123,6 +125,12 @@ pub struct Args {
     /// Length of the edges of all films in metres; test pieces ignore it
     #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = parse_edge)]
     edge: Option<FilmResolution>,
+    /// How finely the aged model is written: 4 to this power triangles for each of a film, 0 to 4
+    #[arg(
+        long, value_name = "N", default_value_t = 0, allow_hyphen_values = true,
+        value_parser = clap::value_parser!(u32).range(0..=i64::from(FaceGrid::MOST))
+    )]
+    level: u32,
     /// Metres that a unit of the models is long; test pieces are in metres anyway
     #[arg(long, value_name = "M", default_value = "1", allow_hyphen_values = true, value_parser = parse_unit)]
     metres_per_unit: f32,
@@ -213,6 +221,7 @@ impl Args {
                 sun: self.sun,
             },
             exclude: self.exclude.clone(),
+            detail: Detail { level: self.level, ..Detail::default() },
         })
     }
 }

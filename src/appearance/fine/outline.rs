@@ -1,0 +1,135 @@
+//! Shapes the outlines of faces: where edges have torn, the points of a face's grid follow the chips.
+
+use bevy_math::{Vec3, Vec3A};
+
+use super::{
+    base::{Base, Place},
+    chips::Chip,
+    patch::{Patch, weights},
+};
+use crate::film::{FaceGrid, FaceId, FilmMesh, HalfEdgeId};
+
+/// Entry of a face whose outline is straight.
+const STRAIGHT: u32 = u32::MAX;
+
+/// Where the points of each face's grid lie on the film, now that edges have torn.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outlines {
+    /// Largest amplitude of chips, in metres.
+    amplitude: f32,
+    /// Which edges of each face have torn: one bit each.
+    torn: Vec<u8>,
+    /// Block of `chipped` that a face has, or [`STRAIGHT`].
+    block: Vec<u32>,
+    /// Weights of the patch's control points at each point of a chipped face, and its barycentric coordinates.
+    chipped: Vec<([f32; 10], Vec3)>,
+    /// Offset of each point of each face from the patch at rest.
+    pub offsets: Vec<Vec3A>,
+}
+
+impl Outlines {
+    /// Returns the outlines of a film without cracks.
+    pub fn new(mesh: &FilmMesh, base: &Base, grid_weights: &[[f32; 10]], amplitude: f32) -> Self {
+        let faces = mesh.topology.face_count();
+        let mut offsets = Vec::with_capacity(base.positions.len());
+        for f in mesh.topology.all_faces() {
+            let patch = rest_patch(mesh, f);
+            let at_rest = |i: usize| base.positions.get(base.index(f, i)).copied().unwrap_or_default();
+            offsets.extend(grid_weights.iter().enumerate().map(|(i, w)| Vec3A::from(at_rest(i)) - patch.at(w)));
+        }
+        Self { amplitude, torn: vec![0; faces], block: vec![STRAIGHT; faces], chipped: Vec::new(), offsets }
+    }
+
+    /// Returns whether other edges of `f` have torn than when this was last called for it.
+    pub fn has_torn(&mut self, mesh: &FilmMesh, f: FaceId) -> bool {
+        let torn =
+            f.half_edges().iter().enumerate().fold(0, |bits, (k, &h)| bits | u8::from(mesh.topology.is_torn(h)) << k);
+        std::mem::replace(&mut self.torn[f.index()], torn) != torn
+    }
+
+    /// Shapes the outline of `f` again, and calls `put` with each of its points and what lies there at rest.
+    pub fn shape(
+        &mut self,
+        mesh: &FilmMesh,
+        base: &Base,
+        grid: &FaceGrid,
+        f: FaceId,
+        mut put: impl FnMut(usize, Place),
+    ) {
+        let chips = self.chips(mesh, f);
+        if chips.iter().all(Option::is_none) {
+            return;
+        }
+        if self.block[f.index()] == STRAIGHT {
+            self.block[f.index()] = (self.chipped.len() / base.points) as u32;
+            self.chipped.extend(std::iter::repeat_n(([0.0; 10], Vec3::ZERO), base.points));
+        }
+        let first = self.block[f.index()] as usize * base.points;
+        let patch = rest_patch(mesh, f);
+        for (i, &b) in grid.points().iter().enumerate() {
+            let shifted = b + shift(&chips, b);
+            let mut place = base.at(grid, f, shifted);
+            if let Some(on_edge) = self.place_on_crack(mesh, base, grid, f, &chips, b) {
+                place.position = on_edge;
+            }
+            let weights = weights(shifted);
+            self.offsets[base.index(f, i)] = Vec3A::from(place.position) - patch.at(&weights);
+            self.chipped[first + i] = (weights, shifted);
+            put(i, place);
+        }
+    }
+
+    /// Returns the weights and barycentric coordinates of the points of `f` if its outline is chipped.
+    #[inline]
+    pub fn chipped(&self, f: FaceId, points: usize) -> Option<&[([f32; 10], Vec3)]> {
+        let block = self.block[f.index()];
+        let first = block as usize * points;
+        if block == STRAIGHT { None } else { self.chipped.get(first..first + points) }
+    }
+
+    fn chips(&self, mesh: &FilmMesh, f: FaceId) -> [Option<Chip>; 3] {
+        f.half_edges().map(|h| Chip::of(mesh, h, self.amplitude))
+    }
+
+    /// Returns the rest position of the point `b` of `f` if it lies on a chipped edge. Both faces at the edge get the
+    /// same bits: the position on the face into which the curve leads there.
+    fn place_on_crack(
+        &self,
+        mesh: &FilmMesh,
+        base: &Base,
+        grid: &FaceGrid,
+        f: FaceId,
+        chips: &[Option<Chip>; 3],
+        b: Vec3,
+    ) -> Option<Vec3> {
+        // Half-edge k lies opposite corner k + 2. The corners themselves stay.
+        let k = (0..3).find(|&k| b[(k + 2) % 3] == 0.0 && b[k] > 0.0 && b[(k + 1) % 3] > 0.0)?;
+        let chip = chips[k].as_ref()?;
+        let h = HalfEdgeId(f.0 * 3 + k as u32);
+        if chip.shift(b) >= 0.0 {
+            return Some(base.at(grid, f, b + shift(chips, b)).position);
+        }
+        let twin = mesh.topology.rest_twin(h)?;
+        let (other, j) = (twin.face(), twin.index() % 3);
+        let mut there = Vec3::ZERO;
+        there[j] = b[(k + 1) % 3];
+        there[(j + 1) % 3] = b[k];
+        // The other edges of that face do not shift points of this one.
+        let chip = Chip::of(mesh, twin, self.amplitude)?;
+        Some(base.at(grid, other, there + chip.moved(chip.shift(there))).position)
+    }
+}
+
+/// Returns the change of the barycentric coordinates `b` by all chips of a face.
+fn shift(chips: &[Option<Chip>; 3], b: Vec3) -> Vec3 {
+    chips.iter().flatten().fold(Vec3::ZERO, |sum, chip| sum + chip.moved(chip.shift(b)))
+}
+
+/// Returns the patch over `f` at rest.
+pub(super) fn rest_patch(mesh: &FilmMesh, f: FaceId) -> Patch {
+    let originals = mesh.topology.corners(f).map(|v| mesh.topology.original(v).index());
+    Patch::new(
+        originals.map(|v| mesh.geometry.rest_positions[v].into()),
+        originals.map(|v| mesh.geometry.rest_normals[v].into()),
+    )
+}

@@ -1,0 +1,218 @@
+//! Tests that the fine surface is whole where the film is, and parts only where it does.
+
+use std::sync::Arc;
+
+use bevy_math::{Vec3, Vec3A};
+
+use super::{chips::Chip, lifted};
+use crate::{
+    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart},
+    film::{FaceGrid, FilmMesh, HalfEdgeId},
+    remesh::{
+        BuiltFilm,
+        sample::{self, TestPiece},
+    },
+    settings::CoatingSettings,
+    sim::FilmState,
+    stain::Environment,
+};
+
+/// A film on a curved plate with a grain of about its mean edge, aged.
+struct Aged {
+    piece: TestPiece,
+    film: FilmState,
+    fine: FilmAppearance,
+    grid: FaceGrid,
+}
+
+impl Aged {
+    fn new(triangles: u32, seed: u64, level: u32, age: f32) -> Self {
+        let piece = sample::curved_plate(triangles, seed).unwrap();
+        let mut settings = CoatingSettings::default();
+        settings.scale.grain = 0.05;
+        let mut film = FilmState::new(&piece.film, &settings, seed, 200).unwrap();
+        film.age_to(f64::from(age), &settings, &Environment::default());
+        let detail = Detail { level, ..Detail::default() };
+        let fine =
+            FilmAppearance::with_detail(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains, detail);
+        Self { piece, film, fine: fine.unwrap(), grid: FaceGrid::new(level) }
+    }
+
+    fn front(&self) -> &MeshPart {
+        self.fine.front(0).unwrap()
+    }
+
+    /// Positions of the front along the half-edge `h`.
+    fn edge(&self, h: HalfEdgeId) -> Vec<Vec3> {
+        let first = h.face().index() * self.grid.points().len();
+        let edge = self.grid.edge(h.index() % 3);
+        edge.iter().map(|&i| Vec3::from_array(self.front().positions[first + i as usize])).collect()
+    }
+}
+
+/// Largest distance between the points of two edges that run against each other.
+fn gap(a: &[Vec3], b: &[Vec3]) -> f32 {
+    a.iter().zip(b.iter().rev()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+}
+
+#[test]
+fn fresh_paint_is_the_props_own_surface() {
+    let aged = Aged::new(300, 2, 2, 0.0);
+    assert_eq!(aged.front().indices.len(), 3 * 16 * 300);
+    assert_eq!(aged.front().positions, aged.front().rest);
+    assert!(aged.fine.metal(0).unwrap().is_empty() && aged.fine.backs(0).unwrap().is_empty());
+}
+
+#[test]
+fn bound_neighbours_meet_at_every_level() {
+    for (level, seed) in [(1, 1), (2, 2), (3, 3)] {
+        let aged = Aged::new(700, seed, level, 1.0);
+        let topology = &aged.film.mesh.topology;
+        let (mut bound, mut moved) = (0, 0);
+        for h in topology.all_edges().filter(|&h| topology.is_live(h.face())) {
+            let Some(twin) = topology.bound_twin(h) else { continue };
+            let (a, b) = (aged.edge(h), aged.edge(twin));
+            let gap = gap(&a, &b);
+            assert!(gap < 1e-4 * aged.film.mesh.geometry.mean_edge, "a gap of {gap} at level {level}");
+            bound += 1;
+            moved += u32::from(a[0] != aged.film.mesh.geometry.rest_positions[topology.origin(h).index()]);
+        }
+        assert!(bound > 200 && moved > 100, "{bound} edges, {moved} of them moved");
+        assert!(aged.front().positions.iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn cracks_that_have_not_opened_are_closed_exactly() {
+    let mut aged = Aged::new(300, 4, 2, 0.0);
+    let inner: Vec<_> =
+        aged.film.mesh.topology.all_edges().filter(|&h| aged.film.mesh.topology.rest_twin(h).is_some()).collect();
+    let settings = CoatingSettings::default();
+    for &h in inner.iter().step_by(7) {
+        aged.film.tear_edge(h, &settings, &Environment::default());
+    }
+    let FilmState { mesh, forces, stains, .. } = &aged.film;
+    aged.fine.update(mesh, forces, stains, DisplayChanges::everything());
+    let (mut torn, mut chipped) = (0, 0);
+    for &h in &inner {
+        let twin = mesh.topology.rest_twin(h).unwrap();
+        let both_live = [h, twin].iter().all(|h| mesh.topology.is_live(h.face()));
+        if !both_live {
+            continue;
+        }
+        let (a, b) = (aged.edge(h), aged.edge(twin));
+        assert!(a.iter().eq(b.iter().rev()), "an edge parts: {a:?} {b:?}");
+        torn += u32::from(mesh.topology.is_torn(h));
+        let middle = a[0].lerp(a[a.len() - 1], 0.5);
+        chipped += u32::from(mesh.topology.is_torn(h) && a[a.len() / 2].distance(middle) > 0.002);
+    }
+    assert!(torn > 30 && chipped > torn / 2, "{torn} torn edges, {chipped} chipped");
+}
+
+#[test]
+fn rims_join_fronts_and_backs() {
+    let aged = Aged::new(700, 5, 2, 1.0);
+    let backs = aged.fine.backs(0).unwrap();
+    // Every edge of the closed skin of fronts, backs and rims has two triangles, or lies where film is still bound.
+    let place = |p: [f32; 3]| p.map(|x| (x * 1e5).round() as i32);
+    let mut edges = std::collections::BTreeMap::new();
+    let topology = &aged.film.mesh.topology;
+    let separated: Vec<bool> = topology
+        .all_faces()
+        .map(|f| topology.is_live(f) && topology.corners(f).iter().all(|&v| !aged.film.forces.is_attached(v)))
+        .collect();
+    let points = aged.grid.points().len() as u32;
+    let is_separated = |vertex: u32| separated[(vertex / points) as usize];
+    let mut count = |part: &MeshPart, t: &[u32]| {
+        for k in 0..3 {
+            let [a, b] = [t[k], t[(k + 1) % 3]].map(|v| place(part.positions[v as usize]));
+            *edges.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+        }
+    };
+    for t in aged.front().indices.chunks_exact(3).filter(|t| is_separated(t[0])) {
+        count(aged.front(), t);
+    }
+    for t in backs.indices.chunks_exact(3) {
+        count(backs, t);
+    }
+    let open = edges.values().filter(|&&n| n == 1).count();
+    // Backs of faces that are partly attached have no front here.
+    assert!(open * 5 < edges.len(), "{open} of {} edges are open", edges.len());
+    let rims = backs.positions.len() / points as usize;
+    assert!(rims > 100);
+}
+
+#[test]
+fn nothing_dips_below_the_props_surface() {
+    let aged = Aged::new(700, 6, 2, 1.0);
+    let (mesh, front) = (&aged.film.mesh, aged.front());
+    let points = aged.grid.points().len();
+    for f in mesh.topology.live_faces() {
+        let normals = mesh.topology.corners(f).map(|v| mesh.geometry.rest_normals[v.index()]);
+        for (i, b) in aged.grid.points().iter().enumerate() {
+            let at = f.index() * points + i;
+            let up = normals[0] * b.x + normals[1] * b.y + normals[2] * b.z;
+            let height = (Vec3::from_array(front.positions[at]) - Vec3::from_array(front.rest[at])).dot(up);
+            assert!(height > -0.01 * mesh.geometry.mean_edge, "{height}");
+        }
+    }
+}
+
+#[test]
+fn updates_give_what_a_new_surface_would_be() {
+    let mut aged = Aged::new(500, 7, 2, 0.3);
+    let mut settings = CoatingSettings::default();
+    settings.scale.grain = 0.05;
+    let mut changes = DisplayChanges::default();
+    for _ in 0..100 {
+        aged.film.step(&settings, &Environment::default());
+        changes.record(&aged.film.changes, &aged.film.stains);
+        let FilmState { mesh, forces, stains, .. } = &aged.film;
+        aged.fine.update(mesh, forces, stains, changes.take());
+    }
+    let FilmState { mesh, forces, stains, .. } = &aged.film;
+    let piece = Arc::new(aged.piece);
+    let (built, surface): (&BuiltFilm, _) = (&piece.film, &piece.surface);
+    let detail = Detail { level: 2, ..Detail::default() };
+    let fresh = FilmAppearance::with_detail(built, surface, mesh, forces, stains, detail).unwrap();
+    for (now, fresh) in [
+        (aged.fine.front(0), fresh.front(0)),
+        (aged.fine.backs(0), fresh.backs(0)),
+        (aged.fine.metal(0), fresh.metal(0)),
+    ] {
+        let (now, fresh) = (now.unwrap(), fresh.unwrap());
+        assert_eq!(now.indices, fresh.indices);
+        let used = |part: &MeshPart| part.indices.iter().map(|&i| part.positions[i as usize]).collect::<Vec<_>>();
+        assert_eq!(used(now), used(fresh));
+        let stains = |part: &MeshPart| part.indices.iter().map(|&i| part.stains[i as usize]).collect::<Vec<_>>();
+        assert_eq!(stains(now), stains(fresh));
+    }
+}
+
+#[test]
+fn lifting_brings_nothing_further_from_the_surface() {
+    let (rest, below) = (Vec3A::new(1.0, 2.0, 3.0), Vec3A::new(1.3, 1.5, 2.9));
+    for up in [Vec3A::Y, Vec3A::Y * 1e-4, Vec3A::new(0.6, 0.8, 0.0) * 1e-3, Vec3A::ZERO, -Vec3A::Y] {
+        let found = lifted(below, rest, up);
+        assert!((found - rest).dot(up) >= -1e-6 * up.length(), "it lies above");
+        assert!(found.distance(rest) <= below.distance(rest), "{up}: {found}");
+    }
+    assert_eq!(lifted(below, rest, -Vec3A::Y), below, "what lies above stays");
+}
+
+#[test]
+fn slivers_are_chipped_no_further_than_they_are_wide() {
+    // A long triangle whose apex lies far beside the edge that it shares with another.
+    let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(20.0, 0.2, 0.0), Vec3::new(0.5, -0.9, 0.0)];
+    let mut mesh = FilmMesh::new(corners, &[[0, 1, 2], [1, 0, 3]]).unwrap();
+    mesh.tear(HalfEdgeId(0), Vec3::NEG_Y).unwrap();
+    for (h, most) in [(HalfEdgeId(0), 0.01), (HalfEdgeId(3), 0.01)] {
+        let chip = Chip::of(&mesh, h, 0.3).unwrap();
+        for i in 0..=16 {
+            let t = i as f32 / 16.0;
+            let shift = chip.shift(Vec3::new(1.0 - t, t, 0.0));
+            assert!(shift.abs() <= most, "{shift}");
+            assert!(chip.moved(shift).abs().max_element() < 0.4);
+        }
+    }
+}
