@@ -81,7 +81,7 @@ pub struct FilmAppearance {
     epoch: u32,
 }
 
-/// What a film is shown by.
+/// Surface by which a film is shown.
 #[derive(Clone, Debug)]
 enum Shown {
     Coarse(Box<CoarseSurface>),
@@ -110,7 +110,8 @@ impl FilmAppearance {
     /// finer than the film are there; the time that takes is that of a part of building the film.
     ///
     /// # Errors
-    /// Those of [`clean`](crate::surface::clean) for a surface that no film can be built on.
+    /// The errors of [`fine_sites`](crate::remesh::fine_sites): `surface` is not the one that `built` was made of, or
+    /// there would be too many triangles.
     ///
     /// ```
     /// use bevy_coating::{

@@ -79,7 +79,7 @@ impl FilmDisplay {
     /// Returns the display of a film at rest, shown as finely as `detail` says.
     ///
     /// # Errors
-    /// Those of [`FilmAppearance::with_detail`].
+    /// The errors of [`FilmAppearance::with_detail`].
     pub fn new(
         film: &FilmState,
         surface: &Surface,

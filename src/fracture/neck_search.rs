@@ -52,7 +52,7 @@ struct Side {
     too_large: bool,
 }
 
-/// What is found across a possible neck.
+/// Finding of the search on both sides of a possible neck.
 enum Verdict {
     /// A flap hangs on it.
     Flap,

@@ -42,7 +42,7 @@ impl Shown {
     }
 }
 
-/// What display showed of a layer. Fields as long as the layer's.
+/// Stains of a layer as display showed them last: each list holds one entry for each vertex of the layer.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct ShownLayer {
     rust: Vec<f32>,

@@ -1,9 +1,9 @@
 //! The film shown finer than it is simulated (VC 8, fig. 18): every face is a grid of small triangles on the prop's own
 //! surface, bent with the film.
 //!
-//! What is shown of a face has its place for good, so a tear renumbers nothing. At rest every point lies on the prop's
-//! surface. A face that has moved is a [curved patch](patch) over its corners, and what the prop's surface rises over
-//! it at rest is turned with it. Points on an edge depend on what lies on that edge alone, so bound neighbours meet.
+//! Each face has its own vertices for good, so a tear renumbers no front. At rest every vertex lies on the prop's
+//! surface. A face that has moved is a [curved patch](patch) over its corners, and the height of the prop's surface
+//! over the patch at rest is turned with it. Vertices on an edge depend on that edge alone, so bound neighbours meet.
 
 mod backs;
 mod base;
