@@ -324,6 +324,13 @@ pub(crate) struct FilmKey {
 }
 
 impl FilmKey {
+    /// Returns whether a film that was built with this key is one for `wanted`, too: a lower level needs no other film.
+    pub fn serves(&self, wanted: &Self) -> bool {
+        let level = self.detail.level;
+        let finer = Self { detail: Detail { level, ..wanted.detail }, ..*wanted };
+        wanted.detail.level <= level && *self == finer
+    }
+
     /// Returns everything that keys are compared by.
     fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32, [u32; 3]) {
         let (resolution, number) = match self.resolution {
@@ -337,7 +344,8 @@ impl FilmKey {
             let CoatingWeather { wind, gusts, rain, sun } = weather;
             [wind.x, wind.y, wind.z, gusts, rain.x, rain.y, rain.z, sun.x, sun.y, sun.z].map(f32::to_bits)
         });
-        let Detail { level, chips, thickness } = self.detail;
+        // How many pixels are enough may change at any time.
+        let Detail { level, chips, thickness, .. } = self.detail;
         let detail = [level, chips.to_bits(), thickness.to_bits()];
         (self.seed, resolution, number, self.start_age.to_bits(), weather, self.steps_per_age, detail)
     }

@@ -82,12 +82,17 @@ impl FilmPace {
     /// Returns the size of the film at `transform` in the view of the nearest of the cameras at `eyes`: its radius over
     /// its distance, from [`LEAST_SHARE`] to 1. Without cameras it is 1.
     pub(crate) fn share_of_view(&self, transform: &GlobalTransform, eyes: &[Vec3]) -> f32 {
-        let (_, rotation, translation) = transform.to_scale_rotation_translation();
-        let middle = translation + rotation * self.bounds.0;
+        let (middle, radius) = self.sphere(transform);
         let nearest = eyes.iter().map(|eye| eye.distance(middle)).reduce(f32::min);
-        let share = nearest.map_or(1.0, |distance| self.bounds.1 / distance);
+        let share = nearest.map_or(1.0, |distance| radius / distance);
         // A film without extent at a camera gives NaN, which counts as the least.
         if share > LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
+    }
+
+    /// Returns centre and radius of a sphere around the film at `transform`, in the world.
+    pub(crate) fn sphere(&self, transform: &GlobalTransform) -> (Vec3, f32) {
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        (translation + rotation * self.bounds.0, self.bounds.1)
     }
 
     /// Returns whether the film takes the step that is under way. Systems in

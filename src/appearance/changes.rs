@@ -48,6 +48,11 @@ impl DisplayChanges {
         Self { moved: true, topology: true, exposure: true, stains: true, ..Self::default() }
     }
 
+    /// Returns the signal that everything changed, in epoch `epoch`.
+    pub(super) fn everything_in(epoch: u32) -> Self {
+        Self { epoch, ..Self::everything() }
+    }
+
     /// Adds what the last step changed.
     pub fn record(&mut self, step: &FilmChanges, stains: &StainFields) {
         self.moved |= step.moved;
@@ -67,6 +72,11 @@ impl DisplayChanges {
     /// Returns whether nothing changed.
     pub fn is_empty(&self) -> bool {
         !(self.moved || self.topology || self.exposure || self.stains)
+    }
+
+    /// Marks everything as changed, in the same epoch. What has not changed after all is not shown again.
+    pub fn mark_everything(&mut self) {
+        (self.moved, self.topology, self.exposure, self.stains) = (true, true, true, true);
     }
 
     /// Begins another epoch, in which everything has changed.

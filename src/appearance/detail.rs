@@ -7,6 +7,13 @@ use crate::film::FaceGrid;
 
 /// Highest [`Detail::chips`] and [`Detail::thickness`], in grains.
 const MOST: f64 = 1.0;
+/// Highest [`Detail::pixels`].
+const MOST_PIXELS: f64 = 100.0;
+/// Share of [`Detail::pixels`] below which the distance must fall before a film is shown at a lower level, so that one
+/// whose distance wavers does not change its level to and fro.
+const CALM: f32 = 0.6;
+/// Radius of a tight curl, in edges of the film: what curls tighter than that folds.
+const CURL: f32 = 1.0;
 
 /// How finely a film is shown, whatever it is simulated with (VC 8).
 ///
@@ -25,9 +32,13 @@ const MOST: f64 = 1.0;
     type_path = "bevy_coating::appearance"
 )]
 pub struct Detail {
-    /// Level: each face is shown by 4^level triangles. 0 to 4, default 0. At 0 faces are flat and edges straight and
-    /// without thickness.
+    /// Finest level: each face is shown by 4^level triangles. 0 to 4, default 0. At 0 faces are flat and edges straight
+    /// and without thickness.
     pub level: u32,
+    /// Largest distance between a curl and the triangles that show it in an image, in pixels: 0 to 100, default 0.5. A
+    /// film that is far from all cameras is shown at a lower level, as long as the distance would be no larger. At 0,
+    /// and without cameras, it is always shown at the finest level.
+    pub pixels: f32,
     /// Amplitude of the chips along torn edges, in grains: 0 to 1, default 0.25. At 0 outlines follow the film's edges.
     /// However large it is, a chip takes no more than about a third of a face.
     pub chips: f32,
@@ -37,7 +48,7 @@ pub struct Detail {
 
 impl Default for Detail {
     fn default() -> Self {
-        Self { level: 0, chips: 0.25, thickness: 0.03 }
+        Self { level: 0, pixels: 0.5, chips: 0.25, thickness: 0.03 }
     }
 }
 
@@ -45,6 +56,31 @@ impl Detail {
     /// Returns the number of triangles by which a film of `faces` faces is shown.
     pub fn triangles(&self, faces: usize) -> usize {
         faces << (2 * self.level.min(FaceGrid::MOST))
+    }
+
+    /// Returns the level at which to show a film that is shown at `level` now, with edges that are `edge` pixels long in
+    /// the nearest image.
+    ///
+    /// A chord of length e across a curl of radius r lies e^2 / 8r beside it, and each level halves e.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::Detail;
+    ///
+    /// let detail = Detail { level: 3, ..Detail::default() };
+    /// assert_eq!(detail.level_at(100.0, 0), 3, "near");
+    /// assert_eq!(detail.level_at(10.0, 0), 1);
+    /// assert_eq!(detail.level_at(3.0, 0), 0, "far away");
+    /// // It becomes coarser a little later than it became finer.
+    /// assert_eq!([detail.level_at(3.9, 1), detail.level_at(2.0, 1)], [1, 0]);
+    /// ```
+    pub fn level_at(&self, edge: f32, level: u32) -> u32 {
+        if !(self.pixels > 0.0) {
+            return self.level;
+        }
+        let beside = |level: u32| edge / (8.0 * CURL) / (1u32 << (2 * level.min(FaceGrid::MOST))) as f32;
+        let least = |most: f32| (0..self.level).find(|&level| beside(level) <= most).unwrap_or(self.level);
+        // Both ends of the range in which the level may stay.
+        level.clamp(least(self.pixels), least(self.pixels * CALM))
     }
 
     /// Returns the first field that is out of its range: its path from the owner of this, its value, and its range in
@@ -60,6 +96,7 @@ impl Detail {
     pub fn out_of_range(&self) -> Option<(&'static str, f64, &'static str)> {
         let fields = [
             ("detail.level", f64::from(self.level), f64::from(FaceGrid::MOST), "0 to 4"),
+            ("detail.pixels", f64::from(self.pixels), MOST_PIXELS, "0 to 100"),
             ("detail.chips", f64::from(self.chips), MOST, "0 to 1"),
             ("detail.thickness", f64::from(self.thickness), MOST, "0 to 1"),
         ];

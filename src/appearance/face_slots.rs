@@ -1,7 +1,9 @@
 //! Tells which slot each face belongs to, and in which winding its triangle is drawn.
 
+use std::sync::Arc;
+
 use crate::{
-    film::{FaceId, HalfEdgeId, Topology},
+    film::{FaceId, Topology},
     fracture::FilmForces,
     remesh::BuiltFilm,
 };
@@ -9,8 +11,8 @@ use crate::{
 /// Slot (primitive of the prop) and winding of each face.
 #[derive(Clone, Debug)]
 pub(super) struct FaceSlots {
-    slots: Vec<u32>,
-    flipped: Vec<bool>,
+    slots: Arc<[u32]>,
+    flipped: Arc<[bool]>,
     /// Whether each slot is hidden.
     hidden: Vec<bool>,
 }
@@ -23,7 +25,7 @@ impl FaceSlots {
         slots.resize(faces, 0);
         flipped.resize(faces, false);
         let count = slots.iter().max().map_or(0, |&slot| slot as usize + 1);
-        Self { slots, flipped, hidden: vec![false; count] }
+        Self { slots: slots.into(), flipped: flipped.into(), hidden: vec![false; count] }
     }
 
     /// Returns the number of slots: the highest slot of a face and one.
@@ -36,6 +38,16 @@ impl FaceSlots {
         if let Some(hidden) = self.hidden.get_mut(slot) {
             *hidden = true;
         }
+    }
+
+    /// Hides the slots that `other` hides, and returns whether any was not hidden before.
+    pub fn hide_as(&mut self, other: &Self) -> bool {
+        let mut news = false;
+        for (own, &other) in self.hidden.iter_mut().zip(&other.hidden) {
+            news |= other && !*own;
+            *own |= other;
+        }
+        news
     }
 
     /// Returns whether each face is in a slot that is hidden.
@@ -56,12 +68,6 @@ impl FaceSlots {
     /// Returns whether `f` runs against the winding of the prop's own triangles.
     pub fn is_flipped(&self, f: FaceId) -> bool {
         self.flipped[f.index()]
-    }
-
-    /// Returns the corners of `f` in the winding in which it is drawn, which is the winding of the prop's own triangle.
-    pub fn corners(&self, f: FaceId) -> [HalfEdgeId; 3] {
-        let [a, b, c] = f.half_edges();
-        if self.is_flipped(f) { [a, c, b] } else { [a, b, c] }
     }
 }
 

@@ -37,7 +37,6 @@ fn join(parts: &[MeshPart], wanted: impl Fn(usize) -> bool) -> MeshPart {
         joined.stains.extend_from_slice(&part.stains);
         joined.rest.extend_from_slice(&part.rest);
         joined.rest_normals.extend_from_slice(&part.rest_normals);
-        joined.keys.extend_from_slice(&part.keys);
         joined.indices.extend(part.indices.iter().map(|&vertex| first + vertex));
     }
     joined

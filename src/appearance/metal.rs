@@ -1,15 +1,17 @@
 //! Builds the bare metal: the faces of the film at rest where it has separated or is gone, moved a little inwards.
 
 use super::{
+    blocks::Blocks,
     corners::CornerAttributes,
     face_slots::{FaceSlots, has_separated},
-    part::{MeshPart, vertex_stains},
+    part::{MeshPart, set},
+    part_changes::PartChanges,
+    seen::Seen,
     wedges::Wedges,
 };
 use crate::{
-    film::{FilmMesh, VertexId},
+    film::{FaceId, FilmMesh, HalfEdgeId},
     fracture::FilmForces,
-    stain::StainFields,
 };
 
 /// Entry of the lookup for a wedge that has no vertex yet.
@@ -20,75 +22,131 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Metal {
     /// Vertices and triangles of the metal in each slot.
     pub parts: Vec<MeshPart>,
+    pub changes: Vec<PartChanges>,
+    /// Place of each face's triangle.
+    blocks: Blocks,
     /// Metal vertex of each wedge at rest, or [`NONE`].
     of_wedge: Vec<u32>,
-    /// Original film vertex above each metal vertex of each slot.
-    originals: Vec<Vec<VertexId>>,
+    /// Corner of the film at rest above each metal vertex of each slot.
+    corners: Vec<Vec<HalfEdgeId>>,
 }
 
 impl Metal {
     /// Returns the metal under a fresh film with `slots` slots.
     pub fn new(slots: usize) -> Self {
-        Self { parts: vec![MeshPart::default(); slots], of_wedge: Vec::new(), originals: vec![Vec::new(); slots] }
+        Self {
+            parts: vec![MeshPart::default(); slots],
+            changes: vec![PartChanges::default(); slots],
+            blocks: Blocks::new(0, 1),
+            of_wedge: Vec::new(),
+            corners: vec![Vec::new(); slots],
+        }
     }
 
-    /// Collects the exposed faces and builds their vertices again, `depth` metres under the film at rest.
-    pub fn renew(
+    /// Brings the metal up to date with what is different about the film. It lies `depth` metres under the film at
+    /// rest.
+    pub fn update(
         &mut self,
         mesh: &FilmMesh,
         forces: &FilmForces,
         face_slots: &FaceSlots,
         wedges: &Wedges,
         attributes: &CornerAttributes,
+        seen: &Seen,
         depth: f32,
     ) {
-        let Self { parts, of_wedge, originals } = self;
-        let (topology, geometry) = (&mesh.topology, &mesh.geometry);
-        parts.iter_mut().for_each(MeshPart::clear);
-        originals.iter_mut().for_each(Vec::clear);
-        of_wedge.clear();
-        of_wedge.resize(wedges.rest_count(), NONE);
-        for f in topology.all_faces() {
-            let covered = topology.is_live(f) && !has_separated(topology, forces, f);
-            if covered || face_slots.is_hidden(f) {
-                continue;
-            }
-            let slot = face_slots.slot(f);
-            let (part, originals) = (&mut parts[slot], &mut originals[slot]);
-            for h in face_slots.corners(f) {
+        let differences = &seen.differences;
+        self.changes.iter_mut().for_each(|changes| changes.begin(differences.whole));
+        if differences.whole {
+            self.parts.iter_mut().for_each(MeshPart::clear);
+            self.corners.iter_mut().for_each(Vec::clear);
+            self.blocks.clear(mesh.topology.face_count(), self.parts.len());
+            self.of_wedge.clear();
+            self.of_wedge.resize(wedges.rest_count(), NONE);
+            mesh.topology.all_faces().for_each(|f| self.show(mesh, forces, face_slots, wedges, f));
+        } else {
+            differences.exposed.iter().for_each(|&f| self.show(mesh, forces, face_slots, wedges, f));
+        }
+        self.renew_vertices(mesh, face_slots, attributes, seen, depth);
+        if seen.looks.metal.any {
+            self.stain(mesh, seen);
+        }
+    }
+
+    /// Adds the triangle of `f` if it is exposed, and removes it if it is not.
+    fn show(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, wedges: &Wedges, f: FaceId) {
+        let Self { parts, changes, blocks, of_wedge, corners } = self;
+        let covered = mesh.topology.is_live(f) && !has_separated(&mesh.topology, forces, f);
+        let wanted = !covered && !face_slots.is_hidden(f);
+        if wanted == blocks.get(f.index()).is_some() {
+            return;
+        }
+        let slot = face_slots.slot(f);
+        let (part, corners) = (&mut parts[slot], &mut corners[slot]);
+        let block = if wanted {
+            let block = blocks.take(f.index(), slot, part);
+            let vertices = f.half_edges().map(|h| {
                 let vertex = &mut of_wedge[wedges.at_rest(h) as usize];
                 if *vertex == NONE {
-                    *vertex = part.positions.len() as u32;
-                    let original = topology.original(topology.origin(h));
-                    let v = original.index();
-                    originals.push(original);
-                    part.keys.push(h.0);
-                    part.rest.push(geometry.rest_positions[v].to_array());
-                    part.rest_normals.push(attributes.normals[h.index()].to_array());
-                    let outwards = if face_slots.is_flipped(f) { depth } else { -depth };
-                    let position = geometry.rest_positions[v] + geometry.rest_normals[v] * outwards;
-                    part.positions.push(position.to_array());
-                    part.normals.push(attributes.normals[h.index()].to_array());
-                    part.uvs.extend(attributes.uvs.get(h.index()).map(|uv| uv.to_array()));
-                    part.uvs_1.extend(attributes.uvs_1.get(h.index()).map(|uv| uv.to_array()));
-                    part.colors.extend(attributes.colors.get(h.index()).map(|color| color.to_array()));
+                    *vertex = corners.len() as u32;
+                    corners.push(h);
                 }
-                part.indices.push(*vertex);
+                *vertex
+            });
+            part.put_triangle(block.index as usize, vertices, face_slots.is_flipped(f));
+            Some(block)
+        } else {
+            blocks.release(f.index(), slot, part)
+        };
+        if let Some(block) = block {
+            changes[slot].indices.add(blocks.indices_of(block));
+        }
+    }
+
+    /// Writes the vertices that are new.
+    fn renew_vertices(
+        &mut self,
+        mesh: &FilmMesh,
+        face_slots: &FaceSlots,
+        attributes: &CornerAttributes,
+        seen: &Seen,
+        depth: f32,
+    ) {
+        for ((part, changes), corners) in self.parts.iter_mut().zip(&mut self.changes).zip(&self.corners) {
+            let first = part.positions.len();
+            part.grow_to(corners.len());
+            for (i, &h) in corners.iter().enumerate().skip(first) {
+                let v = mesh.topology.original(mesh.topology.origin(h)).index();
+                let (position, outwards) = (mesh.geometry.rest_positions[v], mesh.geometry.rest_normals[v]);
+                let depth = if face_slots.is_flipped(h.face()) { depth } else { -depth };
+                part.positions[i] = (position + outwards * depth).to_array();
+                part.normals[i] = attributes.normals[h.index()].to_array();
+                part.rest[i] = position.to_array();
+                part.rest_normals[i] = part.normals[i];
+                part.stains[i] = seen.looks.metal.stains[v];
+                set(&mut part.uvs, i, attributes.uvs.get(h.index()).map(|uv| uv.to_array()));
+                set(&mut part.uvs_1, i, attributes.uvs_1.get(h.index()).map(|uv| uv.to_array()));
+                set(&mut part.colors, i, attributes.colors.get(h.index()).map(|color| color.to_array()));
+            }
+            if first < corners.len() {
+                changes.renewed.add(first..corners.len());
+                changes.moved.add(first..corners.len());
+                changes.stained.add(first..corners.len());
             }
         }
     }
 
-    /// Writes the stains of the metal under each vertex.
-    pub fn stain(&mut self, stains: &StainFields) {
-        let layer = &stains.metal;
-        for (part, originals) in self.parts.iter_mut().zip(&self.originals) {
-            part.stains.clear();
-            part.stains.extend(
-                originals
-                    .iter()
-                    .map(|v| v.index())
-                    .map(|v| vertex_stains(layer.rust(v), layer.dust[v], layer.moisture[v], stains.corrosion[v])),
-            );
+    /// Writes the stains that changed.
+    fn stain(&mut self, mesh: &FilmMesh, seen: &Seen) {
+        let look = &seen.looks.metal;
+        for ((part, changes), corners) in self.parts.iter_mut().zip(&mut self.changes).zip(&self.corners) {
+            for (i, &h) in corners.iter().enumerate() {
+                let v = mesh.topology.original(mesh.topology.origin(h)).index();
+                if look.has_changed(v) {
+                    part.stains[i] = look.stains[v];
+                    changes.stained.push(i);
+                }
+            }
         }
     }
 }

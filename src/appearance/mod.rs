@@ -31,17 +31,24 @@
 //! ```
 
 mod backs;
+mod blocks;
 mod changes;
 mod coarse;
 mod corners;
 mod detail;
+mod differences;
 mod face_slots;
 mod fine;
+mod frames;
+mod fronts;
 mod in_slots;
+mod levels;
+mod looks;
 mod metal;
 mod moves;
-mod normals;
 mod part;
+mod part_changes;
+mod seen;
 pub mod shading;
 #[cfg(test)]
 mod tests;
@@ -51,7 +58,9 @@ mod wedges;
 pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;
 pub use detail::Detail;
+pub use levels::FilmLevels;
 pub use part::MeshPart;
+pub use part_changes::{IndexRanges, PartChanges};
 
 use crate::{
     film::FilmMesh,
@@ -61,8 +70,8 @@ use crate::{
     surface::{BuildError, Surface},
 };
 use coarse::CoarseSurface;
-use face_slots::FaceSlots;
 use fine::FineSurface;
+use seen::Seen;
 
 /// Distance between a flake's front and its back, the thickness of the paint, in mean edge lengths of the film.
 pub const FILM_THICKNESS: f32 = 0.01;
@@ -75,10 +84,13 @@ pub const METAL_DEPTH: f32 = 0.02;
 /// The module's page has an [example](self).
 #[derive(Clone, Debug)]
 pub struct FilmAppearance {
-    face_slots: FaceSlots,
+    /// [`FilmLevels::epoch`] is the [`DisplayChanges::epoch`] of the state that the parts show.
+    levels: FilmLevels,
+    level: u32,
+    seen: Seen,
     shown: Shown,
-    /// [`DisplayChanges::epoch`] of the state that the parts show.
-    epoch: u32,
+    /// Whether the parts must be made again.
+    outdated: bool,
 }
 
 /// Surface by which a film is shown.
@@ -99,9 +111,7 @@ impl FilmAppearance {
         stains: &StainFields,
     ) -> Self {
         let attributes = CornerAttributes::sample(built, surface, mesh);
-        let face_slots = FaceSlots::new(built, mesh.topology.face_count());
-        let coarse = CoarseSurface::new(mesh, attributes, &face_slots);
-        Self { face_slots, shown: Shown::Coarse(Box::new(coarse)), epoch: 0 }.up_to_date(mesh, forces, stains)
+        FilmLevels::coarse(built, attributes, mesh, forces).appearance(0, mesh, forces, stains)
     }
 
     /// Does the same as [`new`](Self::new), with the film shown as finely as `detail` says.
@@ -135,32 +145,41 @@ impl FilmAppearance {
         stains: &StainFields,
         detail: Detail,
     ) -> Result<Self, BuildError> {
-        if detail.level == 0 {
-            return Ok(Self::new(built, surface, mesh, forces, stains));
-        }
-        let attributes = CornerAttributes::sample(built, surface, mesh);
-        let face_slots = FaceSlots::new(built, mesh.topology.face_count());
-        let grain = forces.grain().map_or(mesh.geometry.mean_edge, |grain| grain.length);
-        let fine = FineSurface::new(built, surface, mesh, &attributes, &face_slots, grain, detail)?;
-        Ok(Self { face_slots, shown: Shown::Fine(Box::new(fine)), epoch: 0 }.up_to_date(mesh, forces, stains))
+        let levels = FilmLevels::sample(built, surface, mesh, forces, detail)?;
+        Ok(levels.appearance(detail.level, mesh, forces, stains))
     }
 
-    fn up_to_date(mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
-        self.update(mesh, forces, stains, DisplayChanges::everything());
-        self
+    fn begin(levels: FilmLevels, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
+        let (shown, level) = (levels.surface(level, mesh), level.min(levels.finest()));
+        let mut appearance = Self { levels, level, seen: Seen::new(mesh), shown, outdated: true };
+        let changes = DisplayChanges::everything_in(appearance.levels.epoch);
+        appearance.update(mesh, forces, stains, changes);
+        appearance
+    }
+
+    /// Returns the level at which the film is shown.
+    pub fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// Returns the finest level at which the film can be shown.
+    pub fn finest_level(&self) -> u32 {
+        self.levels.finest()
+    }
+
+    /// Returns what the film can be shown with at other levels.
+    pub fn levels(&self) -> FilmLevels {
+        self.levels.clone()
     }
 
     /// Returns the number of slots. Each primitive of the prop is a slot and has a material of its own.
     pub fn slot_count(&self) -> usize {
-        self.face_slots.slot_count()
+        self.levels.face_slots.slot_count()
     }
 
     /// Returns the front of the paint in one slot; `None` if `slot` is not below [`slot_count`](Self::slot_count).
     pub fn front(&self, slot: usize) -> Option<&MeshPart> {
-        match &self.shown {
-            Shown::Coarse(coarse) => coarse.fronts.get(slot),
-            Shown::Fine(fine) => fine.fronts.get(slot),
-        }
+        self.all_fronts().get(slot)
     }
 
     /// Returns the backs of the flakes in one slot, without tangents; `None` if `slot` is not below
@@ -175,26 +194,67 @@ impl FilmAppearance {
         self.all_metal().get(slot)
     }
 
-    /// Hides slot `slot` for good: its faces have no front, no back and no metal from the next update on, which must
-    /// count as a change of everything.
+    /// Returns what the last update changed of [`front`](Self::front).
+    pub fn front_changes(&self, slot: usize) -> Option<&PartChanges> {
+        match &self.shown {
+            Shown::Coarse(coarse) => coarse.fronts.changes.get(slot),
+            Shown::Fine(fine) => fine.fronts.changes.get(slot),
+        }
+    }
+
+    /// Returns what the last update changed of [`backs`](Self::backs).
+    pub fn back_changes(&self, slot: usize) -> Option<&PartChanges> {
+        match &self.shown {
+            Shown::Coarse(coarse) => coarse.backs.changes.get(slot),
+            Shown::Fine(fine) => fine.backs.changes.get(slot),
+        }
+    }
+
+    /// Returns what the last update changed of [`metal`](Self::metal).
+    pub fn metal_changes(&self, slot: usize) -> Option<&PartChanges> {
+        match &self.shown {
+            Shown::Coarse(coarse) => coarse.metal.changes.get(slot),
+            Shown::Fine(fine) => fine.metal.changes.get(slot),
+        }
+    }
+
+    /// Hides slot `slot` for good: its faces have no front, no back and no metal from the next update on.
     pub fn hide_slot(&mut self, slot: usize) {
-        self.face_slots.hide(slot);
+        self.levels.face_slots.hide(slot);
+        self.outdated = true;
+    }
+
+    /// Hides the slots that `other`, an appearance of the same film, hides.
+    pub fn hide_as(&mut self, other: &Self) {
+        self.outdated |= self.levels.face_slots.hide_as(&other.levels.face_slots);
     }
 
     /// Returns whether each face is in a slot that is [hidden](Self::hide_slot).
     pub fn hidden_faces(&self) -> Vec<bool> {
-        self.face_slots.hidden_faces()
+        self.levels.face_slots.hidden_faces()
     }
 
     /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
     ///
-    /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's count as a change of everything.
+    /// What is shown of a face or vertex keeps its place in the parts' arrays, and only what changed is written. Under
+    /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's, everything is made again.
     pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields, changes: DisplayChanges) {
-        let replaced = std::mem::replace(&mut self.epoch, changes.epoch) != changes.epoch;
-        let changes = if replaced { DisplayChanges::everything() } else { changes };
-        match &mut self.shown {
-            Shown::Coarse(coarse) => coarse.update(mesh, forces, stains, &self.face_slots, changes),
-            Shown::Fine(fine) => fine.update(mesh, forces, stains, &self.face_slots, changes),
+        let Self { levels: FilmLevels { face_slots, epoch, .. }, seen, shown, outdated, .. } = self;
+        let replaced = std::mem::replace(epoch, changes.epoch) != changes.epoch;
+        let whole = std::mem::take(outdated) || replaced;
+        let changes = if whole { DisplayChanges::everything() } else { changes };
+        seen.follow(mesh, forces, stains, changes, whole);
+        match shown {
+            Shown::Coarse(coarse) => coarse.update(mesh, forces, face_slots, seen),
+            Shown::Fine(fine) => fine.update(mesh, forces, face_slots, seen),
+        }
+    }
+
+    /// Returns the fronts of each slot.
+    fn all_fronts(&self) -> &[MeshPart] {
+        match &self.shown {
+            Shown::Coarse(coarse) => &coarse.fronts.parts,
+            Shown::Fine(fine) => &fine.fronts.parts,
         }
     }
 

@@ -9,54 +9,63 @@ use crate::film::{FaceId, FilmMesh, VertexId};
 pub(super) struct Moves {
     /// Positions at the last update.
     seen: Vec<Vec3>,
-    /// Vertices that moved.
+    /// Whether each vertex moved.
     moved: Vec<bool>,
-    /// Faces with a corner that moved.
-    faces: Vec<bool>,
-    /// Corners of these faces.
-    vertices: Vec<bool>,
+    /// Whether each vertex is in `vertices`.
+    turned: Vec<bool>,
+    /// Faces with a corner that moved, in ascending order.
+    pub faces: Vec<FaceId>,
+    /// Corners of these faces, and vertices that count as moved: each once.
+    pub vertices: Vec<VertexId>,
 }
 
 impl Moves {
-    /// Compares the film with the last update and returns whether anything moved. With `all` everything counts as
-    /// moved.
-    pub fn follow(&mut self, mesh: &FilmMesh, all: bool) -> bool {
+    /// Forgets the moves of the last update.
+    pub fn clear(&mut self) {
+        self.faces.clear();
+        for v in self.vertices.drain(..) {
+            self.turned[v.index()] = false;
+        }
+    }
+
+    /// Compares the film with the last update and returns whether anything moved. `others` count as moved, and with
+    /// `all` everything does.
+    pub fn follow(&mut self, mesh: &FilmMesh, all: bool, others: impl Iterator<Item = VertexId>) -> bool {
+        self.clear();
         let (topology, positions) = (&mesh.topology, &mesh.geometry.positions);
-        let Self { seen, moved, faces, vertices } = self;
-        let all = all || seen.len() != positions.len();
+        let Self { seen, moved, turned, faces, vertices } = self;
+        // What is new was nowhere.
+        seen.resize(positions.len(), Vec3::NAN);
+        turned.resize(positions.len(), false);
+        if all {
+            seen.fill(Vec3::NAN);
+        }
         moved.clear();
         // Comparing all is quicker than keeping books of what moved.
         moved.extend(positions.iter().zip(seen.iter()).map(|(a, b)| (a.x != b.x) | (a.y != b.y) | (a.z != b.z)));
-        if !all && !moved.contains(&true) {
-            return false;
-        }
-        vertices.clear();
-        vertices.resize(positions.len(), all);
-        faces.clear();
-        faces.resize(topology.face_count(), all);
-        if !all {
+        let mut turn = |v: VertexId| {
+            if !std::mem::replace(&mut turned[v.index()], true) {
+                vertices.push(v);
+            }
+        };
+        others.for_each(&mut turn);
+        if moved.contains(&true) {
             for f in topology.live_faces() {
-                let corners = topology.corners(f).map(|v| v.index());
-                if moved[corners[0]] | moved[corners[1]] | moved[corners[2]] {
-                    faces[f.index()] = true;
-                    corners.iter().for_each(|&v| vertices[v] = true);
+                let corners = topology.corners(f);
+                let [a, b, c] = corners.map(|v| moved[v.index()]);
+                if a | b | c {
+                    faces.push(f);
+                    corners.iter().for_each(|&v| turn(v));
                 }
             }
+            seen.copy_from_slice(positions);
         }
-        seen.clear();
-        seen.extend_from_slice(positions);
-        true
+        !vertices.is_empty()
     }
 
-    /// Returns whether a corner of `f` moved.
-    #[inline]
-    pub fn has_moved(&self, f: FaceId) -> bool {
-        self.faces[f.index()]
-    }
-
-    /// Returns whether `v` belongs to a face with a corner that moved.
+    /// Returns whether `v` belongs to a face with a corner that moved, or counts as moved.
     #[inline]
     pub fn is_turned(&self, v: VertexId) -> bool {
-        self.vertices[v.index()]
+        self.turned[v.index()]
     }
 }

@@ -45,10 +45,10 @@ pub struct MeshPart {
     pub rest: Vec<[f32; 3]>,
     /// Normal of each vertex at rest, of unit length.
     pub rest_normals: Vec<[f32; 3]>,
-    /// Number of each vertex, unique in the part. It is the same while film tears elsewhere, so that a vertex can be
-    /// found again when vertices are numbered afresh.
-    pub keys: Vec<u32>,
     /// Vertex indices, three a triangle. Fronts and metal are wound as the prop's own triangles, backs the other way.
+    ///
+    /// A triangle keeps its place here while the film ages. One that is gone leaves a triangle without area behind, of
+    /// three times the same vertex; see [`triangles`](Self::triangles).
     pub indices: Vec<u32>,
 }
 
@@ -70,6 +70,19 @@ impl MeshPart {
         Some(StainSample::new(stains, rest.into(), normal.into()))
     }
 
+    /// Returns the vertices of each triangle, but for those that are gone.
+    ///
+    /// ```
+    /// use bevy_coating::appearance::MeshPart;
+    ///
+    /// let part = MeshPart { indices: vec![0, 1, 2, 5, 5, 5], ..MeshPart::default() };
+    /// assert_eq!(part.triangles().collect::<Vec<_>>(), [[0, 1, 2]]);
+    /// ```
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let triangles = self.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
+        triangles.filter(|[a, b, c]| a != b && b != c && c != a)
+    }
+
     /// Removes all vertices and triangles and keeps the buffers.
     pub(super) fn clear(&mut self) {
         self.positions.clear();
@@ -81,7 +94,46 @@ impl MeshPart {
         self.stains.clear();
         self.rest.clear();
         self.rest_normals.clear();
-        self.keys.clear();
         self.indices.clear();
     }
+
+    /// Grows the arrays that every part has to `count` vertices. The others grow as they are [set](set).
+    pub(super) fn grow_to(&mut self, count: usize) {
+        if count > self.positions.len() {
+            self.positions.resize(count, [0.0; 3]);
+            self.normals.resize(count, [0.0; 3]);
+            self.stains.resize(count, [0.0; 4]);
+            self.rest.resize(count, [0.0; 3]);
+            self.rest_normals.resize(count, [0.0; 3]);
+        }
+    }
+
+    /// Copies the texture coordinates and the colour of vertex `from` of `other` to vertex `to`.
+    pub(super) fn copy_coordinates(&mut self, to: usize, other: &Self, from: usize) {
+        set(&mut self.uvs, to, other.uvs.get(from).copied());
+        set(&mut self.uvs_1, to, other.uvs_1.get(from).copied());
+        set(&mut self.colors, to, other.colors.get(from).copied());
+    }
+
+    /// Copies stains and the place at rest of vertex `from` of `other` to vertex `to`.
+    pub(super) fn copy_stains(&mut self, to: usize, other: &Self, from: usize) {
+        self.stains[to] = other.stains[from];
+        self.rest[to] = other.rest[from];
+        self.rest_normals[to] = other.rest_normals[from];
+    }
+
+    /// Writes a triangle at `index`; with `flipped`, wound the other way.
+    #[inline]
+    pub(super) fn put_triangle(&mut self, index: usize, [a, b, c]: [u32; 3], flipped: bool) {
+        self.indices[index..index + 3].copy_from_slice(&if flipped { [a, c, b] } else { [a, b, c] });
+    }
+}
+
+/// Sets entry `i` of an attribute, which grows if it is too short; nothing where there is no value.
+pub(super) fn set<T: Copy + Default>(values: &mut Vec<T>, i: usize, value: Option<T>) {
+    let Some(value) = value else { return };
+    if i >= values.len() {
+        values.resize(i + 1, T::default());
+    }
+    values[i] = value;
 }

@@ -22,7 +22,7 @@ fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
 }
 
 fn triangles(part: &MeshPart) -> impl Iterator<Item = [usize; 3]> + '_ {
-    part.indices.chunks_exact(3).map(|t| [0, 1, 2].map(|i| t[i] as usize))
+    part.triangles().map(|t| t.map(|i| i as usize))
 }
 
 fn at(values: &[[f32; 3]], i: usize) -> Vec3 {
@@ -55,10 +55,10 @@ fn backs_and_metal_show_where_film_separated_and_only_there() {
     let separated = topology.live_faces().filter(|&f| has_separated(topology, &film.forces, f)).count();
     let removed = topology.face_count() - topology.live_faces().count();
     assert!(separated > 100 && removed > 2, "{separated} {removed}");
-    assert_eq!(appearance.front(0).unwrap().indices.len(), topology.live_faces().count() * 3);
+    assert_eq!(triangles(appearance.front(0).unwrap()).count(), topology.live_faces().count());
     let (backs, metal) = (appearance.backs(0).unwrap(), appearance.metal(0).unwrap());
-    assert_eq!(backs.indices.len(), separated * 3);
-    assert_eq!(metal.indices.len(), (separated + removed) * 3);
+    assert_eq!(triangles(backs).count(), separated);
+    assert_eq!(triangles(metal).count(), separated + removed);
     // The metal lies flat, just under the film at rest, facing out; backs face the other way than their fronts.
     let depth = film.mesh.geometry.mean_edge * METAL_DEPTH;
     assert!(metal.positions.iter().all(|p| (p[2] + depth).abs() < 1e-6));
@@ -70,7 +70,7 @@ fn backs_and_metal_show_where_film_separated_and_only_there() {
             let [a, b, c] = t.map(|i| at(&part.positions, i));
             agree += usize::from((b - a).cross(c - a).dot(at(&part.normals, t[0])) > 0.0);
         }
-        assert!(agree * 3 > part.indices.len() * 95 / 100, "winding agrees with normals: {agree}");
+        assert!(agree > triangles(part).count() * 95 / 100, "winding agrees with normals: {agree}");
     }
 }
 
@@ -129,7 +129,9 @@ fn normals_follow_the_film_as_it_bends() {
     let (film, appearance, _) = aged(0.8);
     let front = appearance.front(0).unwrap();
     let (mut close, mut turned) = (0, 0);
+    let mut corners = 0;
     for t in triangles(front) {
+        corners += 3;
         let [a, b, c] = t.map(|i| at(&front.positions, i));
         let face = (b - a).cross(c - a).normalize_or_zero();
         for i in t {
@@ -139,17 +141,126 @@ fn normals_follow_the_film_as_it_bends() {
             turned += usize::from(normal.z < 0.95);
         }
     }
-    assert!(close * 10 > front.indices.len() * 9, "{close} of {}", front.indices.len());
+    assert!(close * 10 > corners * 9, "{close} of {corners}");
     assert!(turned > 50, "{turned}");
     assert!(film.measure().lift_p90 > Some(0.3));
 }
 
-/// Every array of every part.
-fn arrays(appearance: &FilmAppearance) -> Vec<MeshPart> {
-    let fronts = (0..appearance.slot_count()).filter_map(|slot| appearance.front(slot));
-    let backs = (0..appearance.slot_count()).filter_map(|slot| appearance.backs(slot));
-    let metal = (0..appearance.slot_count()).filter_map(|slot| appearance.metal(slot));
-    fronts.chain(backs).chain(metal).cloned().collect()
+/// Every part: fronts, backs and metal.
+fn parts(appearance: &FilmAppearance) -> Vec<&MeshPart> {
+    let slots = 0..appearance.slot_count();
+    let fronts = slots.clone().filter_map(|slot| appearance.front(slot));
+    let backs = slots.clone().filter_map(|slot| appearance.backs(slot));
+    fronts.chain(backs).chain(slots.filter_map(|slot| appearance.metal(slot))).collect()
+}
+
+/// Bits of all attributes of each corner of each triangle of a part, in an order that does not depend on numbers.
+pub(super) fn shown(part: &MeshPart) -> Vec<[Vec<u32>; 3]> {
+    fn bits<const N: usize>(values: &[[f32; N]], i: u32) -> impl Iterator<Item = u32> {
+        // Zeros have two signs.
+        values.get(i as usize).into_iter().flatten().map(|x| (x + 0.0).to_bits())
+    }
+    let corner = |i: u32| {
+        let places = bits(&part.positions, i).chain(bits(&part.normals, i)).chain(bits(&part.tangents, i));
+        let own = bits(&part.uvs, i).chain(bits(&part.uvs_1, i)).chain(bits(&part.colors, i));
+        let rest = bits(&part.rest, i).chain(bits(&part.rest_normals, i)).chain(bits(&part.stains, i));
+        places.chain(own).chain(rest).collect()
+    };
+    let mut shown: Vec<_> = part.triangles().map(|t| t.map(corner)).collect();
+    shown.sort_unstable();
+    shown
+}
+
+/// What every part shows.
+fn arrays(appearance: &FilmAppearance) -> Vec<Vec<[Vec<u32>; 3]>> {
+    parts(appearance).into_iter().map(shown).collect()
+}
+
+/// Brings a copy of a part up to date with nothing but its changes.
+fn repeat(copy: &mut MeshPart, part: &MeshPart, changes: &PartChanges) {
+    fn take<T: Copy + Default>(to: &mut Vec<T>, from: &[T], ranges: &IndexRanges) {
+        to.resize(from.len(), T::default());
+        let ranges = if from.is_empty() { &IndexRanges::default() } else { ranges };
+        ranges.ranges().for_each(|range| to[range.clone()].copy_from_slice(&from[range]));
+    }
+    if changes.whole {
+        copy.clone_from(part);
+        return;
+    }
+    take(&mut copy.uvs, &part.uvs, &changes.renewed);
+    take(&mut copy.uvs_1, &part.uvs_1, &changes.renewed);
+    take(&mut copy.colors, &part.colors, &changes.renewed);
+    take(&mut copy.rest, &part.rest, &changes.renewed);
+    take(&mut copy.rest_normals, &part.rest_normals, &changes.renewed);
+    take(&mut copy.positions, &part.positions, &changes.moved);
+    take(&mut copy.normals, &part.normals, &changes.moved);
+    take(&mut copy.tangents, &part.tangents, &changes.moved);
+    take(&mut copy.stains, &part.stains, &changes.stained);
+    take(&mut copy.indices, &part.indices, &changes.indices);
+}
+
+/// Changes of every part, in the order of [`parts`].
+fn part_changes(appearance: &FilmAppearance) -> Vec<&PartChanges> {
+    let slots = 0..appearance.slot_count();
+    let fronts = slots.clone().filter_map(|slot| appearance.front_changes(slot));
+    let backs = slots.clone().filter_map(|slot| appearance.back_changes(slot));
+    fronts.chain(backs).chain(slots.filter_map(|slot| appearance.metal_changes(slot))).collect()
+}
+
+#[test]
+fn changes_of_parts_tell_all_that_changed() {
+    for level in [0, 2] {
+        let mut piece = sample::curved_plate(400, 3).unwrap();
+        piece.film.slots = piece.film.triangles.iter().map(|t| t[0] % 2).collect();
+        let mut settings = CoatingSettings::default();
+        settings.scale.grain = 0.06;
+        let mut film = FilmState::new(&piece.film, &settings, 3, 120).unwrap();
+        let detail = Detail { level, ..Detail::default() };
+        let FilmState { mesh, forces, stains, .. } = &film;
+        let mut appearance =
+            FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap();
+        let mut copies: Vec<MeshPart> = parts(&appearance).into_iter().cloned().collect();
+        let (mut changes, mut gone, mut written) = (DisplayChanges::default(), false, 0);
+        for step in 0..140 {
+            film.step(&settings, &Environment::default());
+            changes.record(&film.changes, &film.stains);
+            gone |= !film.changes.removed.is_empty();
+            if step % 3 == 1 {
+                continue;
+            }
+            appearance.update(&film.mesh, &film.forces, &film.stains, changes.take());
+            let all = parts(&appearance).into_iter().zip(part_changes(&appearance));
+            for (copy, (part, changes)) in copies.iter_mut().zip(all) {
+                assert!(!changes.whole, "only the first time");
+                written += usize::from(!changes.indices.is_empty());
+                repeat(copy, part, changes);
+                assert_eq!(copy.indices, part.indices, "level {level}, step {step}");
+                assert_eq!(shown(copy), shown(part), "level {level}, step {step}");
+            }
+        }
+        assert!(gone && written > 50, "{written}");
+    }
+}
+
+#[test]
+fn what_nothing_happened_to_is_not_written() {
+    let piece = sample::plate(3000, 3).unwrap();
+    let settings = CoatingSettings::from(Preset::Paper);
+    let mut film = FilmState::new(&piece.film, &settings, 3, 500).unwrap();
+    let mut appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
+    let (mut changes, mut tears, mut written) = (DisplayChanges::default(), 0, 0);
+    for _ in 0..200 {
+        film.step(&settings, &Environment::default());
+        changes.record(&film.changes, &film.stains);
+        tears += film.changes.torn.len();
+        appearance.update(&film.mesh, &film.forces, &film.stains, changes.take());
+        let front = appearance.front_changes(0).unwrap();
+        written += front.indices.ranges().map(|range| range.len() / 3).sum::<usize>();
+    }
+    assert!(tears > 10, "{tears}");
+    assert!(written < 8 * tears, "{written} triangles for {tears} tears");
+    appearance.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
+    assert!(part_changes(&appearance).into_iter().all(PartChanges::is_empty), "everything was seen already");
 }
 
 #[test]
@@ -225,5 +336,49 @@ fn flipped_faces_are_wound_as_the_prop_was() {
     for t in triangles(front) {
         let [a, b, c] = t.map(|i| at(&front.positions, i));
         assert!((b - a).cross(c - a).z < 0.0);
+    }
+}
+
+#[test]
+#[ignore = "timing"]
+fn time_display() {
+    for (triangles, preset) in [(3012, Preset::Paper), (10_000, Preset::Paper), (10_000, Preset::Default)] {
+        for level in [0u32, 2] {
+            let piece = sample::plate(triangles, 1).unwrap();
+            let settings = CoatingSettings::from(preset);
+            let mut film = FilmState::new(&piece.film, &settings, 1, 1000).unwrap();
+            let detail = Detail { level, ..Detail::default() };
+            let t = std::time::Instant::now();
+            let mut shown = FilmAppearance::with_detail(
+                &piece.film,
+                &piece.surface,
+                &film.mesh,
+                &film.forces,
+                &film.stains,
+                detail,
+            )
+            .unwrap();
+            let made = t.elapsed();
+            let mut changes = DisplayChanges::default();
+            let mut sums = std::collections::BTreeMap::<(bool, bool, bool, bool), (u32, f64)>::new();
+            let (mut sim, mut all) = (0.0, 0.0);
+            for _ in 0..1000 {
+                let t = std::time::Instant::now();
+                film.step(&settings, &Environment::default());
+                sim += t.elapsed().as_secs_f64();
+                changes.record(&film.changes, &film.stains);
+                let taken = changes.take();
+                let t = std::time::Instant::now();
+                shown.update(&film.mesh, &film.forces, &film.stains, taken);
+                let s = t.elapsed().as_secs_f64();
+                all += s;
+                let sum = sums.entry((taken.moved, taken.topology, taken.exposure, taken.stains)).or_default();
+                *sum = (sum.0 + 1, sum.1 + s);
+            }
+            println!("{triangles} {preset:?} level {level}: new {made:?}, sim {sim:.3} display {all:.3}");
+            for (k, (n, s)) in sums {
+                println!("   moved/topology/exposure/stains {k:?}: {n} x {:.3} ms", s / f64::from(n) * 1e3);
+            }
+        }
     }
 }

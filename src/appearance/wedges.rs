@@ -1,23 +1,46 @@
 //! Merges corners at one vertex that have the same attributes into one mesh vertex, called a wedge.
 
-use super::{corners::CornerAttributes, face_slots::FaceSlots};
-use crate::film::{FilmMesh, HalfEdgeId, Topology};
+use super::{corners::CornerAttributes, differences::Differences, face_slots::FaceSlots};
+use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
 
 /// Largest difference between attributes that count as the same. It is far too small to be seen, and larger than the
 /// rounding of interpolation.
 const SAME: f32 = 1e-4;
 
-/// Mesh vertex of each corner.
+/// Entry of a corner whose face is gone.
+const NONE: u32 = u32::MAX;
+
+/// Vertex of each corner in the front part of its slot.
+///
+/// A vertex keeps its number while any corner stands for it, however the film tears. One that nothing stands for any
+/// more is free for the next that comes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wedges {
     /// Wedge of each corner at rest. Corners of different vertices, slots or attributes have different wedges.
     rest: Vec<u32>,
-    /// Current vertex of each corner in the front part of its slot.
-    now: Vec<u32>,
-    /// One corner for each vertex of each slot's front part.
-    corners: Vec<Vec<HalfEdgeId>>,
     /// Number of wedges at rest.
     rest_count: usize,
+    /// Current vertex of each corner.
+    now: Vec<u32>,
+    /// Vertices of each slot.
+    slots: Vec<SlotVertices>,
+    /// Corners that stand for another vertex since the last update.
+    pub changed: Vec<HalfEdgeId>,
+    /// Vertices (slot and number) that may be left with no corner.
+    suspects: Vec<(usize, u32)>,
+}
+
+/// Vertices of one slot's front part.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SlotVertices {
+    /// A corner that stands for each vertex; `NONE` where there is none.
+    pub corners: Vec<HalfEdgeId>,
+    /// Vertex of the film that each vertex follows.
+    pub film: Vec<VertexId>,
+    /// Vertices that are new since the last update.
+    pub new: Vec<u32>,
+    /// Vertices that no corner stands for.
+    free: Vec<u32>,
 }
 
 impl Wedges {
@@ -51,43 +74,87 @@ impl Wedges {
         self.rest_count
     }
 
-    /// Numbers the vertices of each slot's front part: one for each wedge of each live vertex, in the order of vertices
-    /// and of their fans.
-    pub fn renew(&mut self, topology: &Topology, face_slots: &FaceSlots) {
-        let Self { rest, now, corners, .. } = self;
-        corners.resize_with(face_slots.slot_count(), Vec::new);
-        corners.iter_mut().for_each(Vec::clear);
-        now.clear();
-        now.resize(topology.half_edge_count(), u32::MAX);
-        for v in topology.all_vertices() {
-            let mut before = HalfEdgeId::NONE;
-            for (i, h) in topology.fan(v).enumerate() {
-                let wedge = rest[h.index()];
-                // Mostly the wedge of the corner before.
-                let same = before
-                    .get()
-                    .filter(|g| rest[g.index()] == wedge)
-                    .or_else(|| topology.fan(v).take(i).find(|g| rest[g.index()] == wedge));
-                now[h.index()] = if let Some(g) = same {
-                    now[g.index()]
-                } else {
-                    let corners = &mut corners[face_slots.slot(h.face())];
-                    corners.push(h);
-                    corners.len() as u32 - 1
-                };
-                before = h;
-            }
-        }
-    }
-
-    /// Returns one corner for each vertex of a slot's front part.
-    pub fn corners(&self, slot: usize) -> &[HalfEdgeId] {
-        self.corners.get(slot).map_or(&[], Vec::as_slice)
+    /// Returns the vertices of a slot's front part.
+    pub fn slot(&self, slot: usize) -> &SlotVertices {
+        &self.slots[slot]
     }
 
     /// Returns the vertex of the corner at the start of `h` in the front part of its slot.
     pub fn vertex_of(&self, h: HalfEdgeId) -> u32 {
         self.now[h.index()]
+    }
+
+    /// Gives the corners at vertices with other faces their own vertices.
+    pub fn follow(&mut self, topology: &Topology, face_slots: &FaceSlots, differences: &Differences) {
+        self.changed.clear();
+        self.slots.iter_mut().for_each(|slot| slot.new.clear());
+        if differences.whole {
+            self.slots.clear();
+            self.slots.resize_with(face_slots.slot_count(), SlotVertices::default);
+            self.now.clear();
+            self.now.resize(topology.half_edge_count(), NONE);
+            topology.all_vertices().for_each(|v| self.number(topology, face_slots, v));
+            return;
+        }
+        let Self { now, slots, suspects, .. } = self;
+        suspects.clear();
+        let gone = differences.gone.iter().flat_map(|f| f.half_edges());
+        suspects.extend(gone.chain(differences.parted.iter().copied()).filter_map(|h| {
+            let vertex = now[h.index()];
+            (vertex != NONE).then(|| (face_slots.slot(h.face()), vertex))
+        }));
+        for h in differences.gone.iter().flat_map(|f| f.half_edges()) {
+            now[h.index()] = NONE;
+        }
+        for &(slot, vertex) in suspects.iter() {
+            slots[slot].corners[vertex as usize] = HalfEdgeId::NONE;
+        }
+        differences.vertices.iter().for_each(|&v| self.number(topology, face_slots, v));
+        let Self { slots, suspects, .. } = self;
+        for &(slot, vertex) in suspects.iter() {
+            let SlotVertices { corners, film, free, .. } = &mut slots[slot];
+            let follows = &mut film[vertex as usize];
+            if corners[vertex as usize] == HalfEdgeId::NONE && *follows != VertexId::NONE {
+                *follows = VertexId::NONE;
+                free.push(vertex);
+            }
+        }
+    }
+
+    /// Gives the corners at `v` their vertices: one for each wedge, in the order of the fan. Those that follow `v`
+    /// already stay.
+    fn number(&mut self, topology: &Topology, face_slots: &FaceSlots, v: VertexId) {
+        let Self { rest, now, slots, changed, .. } = self;
+        for (i, h) in topology.fan(v).enumerate() {
+            let slot = &mut slots[face_slots.slot(h.face())];
+            let vertex = now[h.index()] as usize;
+            if slot.film.get(vertex) != Some(&v) {
+                let wedge = rest[h.index()];
+                let same = topology.fan(v).take(i).find(|g| rest[g.index()] == wedge);
+                now[h.index()] = same.map_or_else(|| slot.add(v), |g| now[g.index()]);
+                changed.push(h);
+            }
+            let corner = &mut slot.corners[now[h.index()] as usize];
+            if *corner == HalfEdgeId::NONE {
+                *corner = h;
+            }
+        }
+    }
+}
+
+impl SlotVertices {
+    /// Adds a vertex that follows `v`, and returns its number.
+    fn add(&mut self, v: VertexId) -> u32 {
+        let Self { corners, film, new, free } = self;
+        let vertex = free.pop().unwrap_or(film.len() as u32);
+        if vertex as usize == film.len() {
+            film.push(v);
+            corners.push(HalfEdgeId::NONE);
+        } else {
+            film[vertex as usize] = v;
+        }
+        new.push(vertex);
+        vertex
     }
 }
 

@@ -102,7 +102,7 @@ fn place_of(
 ) -> Option<Copied> {
     let source = source?;
     let root = coatings.root_of(mesh)?;
-    if coatings.coatings.get(root).ok()?.key() != source.key {
+    if !source.key.serves(&coatings.coatings.get(root).ok()?.key()) {
         return None;
     }
     // The clone has no link to its original but the mesh, which only one slot shows.

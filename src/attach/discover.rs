@@ -124,7 +124,7 @@ pub(super) fn find_outdated(
         if build.is_some_and(|build| build.key != wanted) {
             commands.try_remove::<FilmBuild>();
         }
-        let outdates = source.key != wanted && source.refused != Some(asked);
+        let outdates = !source.key.serves(&wanted) && source.refused != Some(asked);
         if outdates && !outdated {
             commands.try_insert(FilmOutdated);
         } else if outdated && !outdates {

@@ -1,7 +1,7 @@
 //! Follows the stains of one part, and colours those vertices whose look has changed.
 
 use super::film_paint::FilmPaint;
-use crate::appearance::{MeshPart, shading::StainPart};
+use crate::appearance::{IndexRanges, MeshPart, PartChanges, shading::StainPart};
 
 /// Difference of a stain below which it looks the same: about one level of 255 in colour.
 const SAME_LOOK: f32 = 1.0 / 256.0;
@@ -31,17 +31,6 @@ pub(super) struct StainWriter<'a> {
     pub edge: f32,
 }
 
-/// Change of a part besides that of its stains.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Renewal {
-    /// No change.
-    Nothing,
-    /// Vertices are numbered afresh.
-    Vertices,
-    /// Everything that was drawn is void: the part is new, or its paint has changed.
-    Everything,
-}
-
 /// Stains of one part as its mesh shows them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct StainCanvas {
@@ -51,72 +40,71 @@ pub(super) struct StainCanvas {
     shown: Vec<[f32; 4]>,
     /// Colour of each vertex, where colours carry the stains.
     colors: Vec<[f32; 4]>,
-    /// [Number](MeshPart::keys) of each coloured vertex.
-    keys: Vec<u32>,
-    /// Whether the mesh does not show this yet.
-    changed: bool,
+    /// Vertices that look different since the last [`follow`](Self::follow).
+    changed: IndexRanges,
+    /// Whether the mesh must get other attributes.
+    relaid: bool,
+    /// Whether what is shown is void.
+    void: bool,
 }
 
 impl StainCanvas {
     /// Returns the canvas of a part as it is now.
     pub fn new(part: &MeshPart, writer: StainWriter) -> Self {
         let mut canvas = Self::default();
-        canvas.follow(part, writer, Renewal::Everything);
+        canvas.follow(part, writer, &PartChanges::default(), true);
+        canvas.relaid = false;
         canvas
     }
 
-    /// Takes over the stains of `part` that look different from those that are shown. Vertices that were numbered
-    /// afresh keep their colours.
-    pub fn follow(&mut self, part: &MeshPart, writer: StainWriter, renewal: Renewal) {
-        let renewal = if self.carrier == writer.carrier { renewal } else { Renewal::Everything };
-        self.carrier = writer.carrier;
-        self.changed |= renewal != Renewal::Nothing;
-        if self.carrier == StainCarrier::Nothing {
-            (self.shown, self.colors, self.keys) = (Vec::new(), Vec::new(), Vec::new());
+    /// Takes over the stains of `part` that look different from those that are shown. `changes` are those of the part
+    /// since the last time; with `repainted`, everything that was drawn is void.
+    pub fn follow(&mut self, part: &MeshPart, writer: StainWriter, changes: &PartChanges, repainted: bool) {
+        let Self { carrier, shown, colors, changed, relaid, void } = self;
+        changed.clear();
+        let other = std::mem::replace(carrier, writer.carrier) != writer.carrier;
+        *relaid |= other;
+        let all = std::mem::take(void) || repainted || other || changes.whole;
+        if all {
+            (*shown, *colors) = (Vec::new(), Vec::new());
+        }
+        if *carrier == StainCarrier::Nothing {
             return;
         }
-        if self.carrier == StainCarrier::Attributes {
-            (self.colors, self.keys) = (Vec::new(), Vec::new());
-            if renewal != Renewal::Nothing
-                || self.shown.len() != part.stains.len()
-                || self.shown.iter().zip(&part.stains).any(|(shown, now)| look_different(shown, now))
+        let count = part.stains.len();
+        // What is not a number has not been shown yet.
+        shown.resize(count, [f32::NAN; 4]);
+        if *carrier == StainCarrier::Colors {
+            colors.resize(count, [1.0; 4]);
+        }
+        for range in changes.renewed.ranges() {
+            shown[range].fill([f32::NAN; 4]);
+        }
+        let mut look = |i: usize| {
+            let now = part.stains[i];
+            if !look_different(&shown[i], &now) {
+                return;
+            }
+            if *carrier == StainCarrier::Colors
+                && let Some(sample) = part.sample(i)
             {
-                self.shown.clone_from(&part.stains);
-                self.changed = true;
+                let own = part.colors.get(i).copied().unwrap_or([1.0; 4]);
+                colors[i] = writer.paint.color(writer.part, own, &sample, writer.edge);
             }
-            return;
-        }
-        if renewal == Renewal::Everything {
-            self.keys.clear();
-        }
-        if renewal != Renewal::Nothing || self.shown.len() != part.stains.len() {
-            self.renumber(part);
-        }
-        for (i, ((shown, color), now)) in self.shown.iter_mut().zip(&mut self.colors).zip(&part.stains).enumerate() {
-            if !look_different(shown, now) {
-                continue;
-            }
-            let own = part.colors.get(i).copied().unwrap_or([1.0; 4]);
-            if let Some(sample) = part.sample(i) {
-                *color = writer.paint.color(writer.part, own, &sample, writer.edge);
-            }
-            *shown = *now;
-            self.changed = true;
+            shown[i] = now;
+            changed.push(i);
+        };
+        if all {
+            (0..count).for_each(look);
+        } else {
+            changes.renewed.ranges().chain(changes.stained.ranges()).flatten().for_each(&mut look);
         }
     }
 
-    /// Takes over the vertices of `part`. Those that were there before keep their colours.
-    fn renumber(&mut self, part: &MeshPart) {
-        let highest = self.keys.iter().max();
-        let mut places = vec![u32::MAX; highest.map_or(0, |&highest| highest as usize + 1)];
-        self.keys.iter().enumerate().for_each(|(i, &key)| places[key as usize] = i as u32);
-        let old = |i: usize| {
-            let place = *places.get(*part.keys.get(i)? as usize)? as usize;
-            Some((*self.shown.get(place)?, *self.colors.get(place)?))
-        };
-        let new = |i| old(i).unwrap_or(([f32::NAN; 4], [1.0; 4]));
-        (self.shown, self.colors) = (0..part.stains.len()).map(new).unzip();
-        self.keys.clone_from(&part.keys);
+    /// Takes everything that is shown as void, as when the vertices are others.
+    #[cfg(feature = "render")]
+    pub fn forget(&mut self) {
+        self.void = true;
     }
 
     /// Returns the attributes that carry the stains.
@@ -134,15 +122,20 @@ impl StainCanvas {
         &self.shown
     }
 
-    /// Returns whether there is anything that the mesh does not show yet, and takes it as shown from now on.
-    pub fn take_change(&mut self) -> bool {
-        std::mem::take(&mut self.changed)
+    /// Returns the vertices that look different since the last [`follow`](Self::follow).
+    pub fn changed(&self) -> &IndexRanges {
+        &self.changed
+    }
+
+    /// Returns whether the mesh must get other attributes, and takes it that it has them from now on.
+    pub fn take_relaid(&mut self) -> bool {
+        std::mem::take(&mut self.relaid)
     }
 }
 
 /// Returns whether the stains of a vertex look different. Stains that are gone count as different from all others.
 fn look_different(shown: &[f32; 4], now: &[f32; 4]) -> bool {
-    // What is not a number has not been shown yet.
+    // What is not a number differs.
     let differ = |(a, b): (&f32, &f32)| !((a - b).abs() <= SAME_LOOK) || (*b == 0.0 && *a != 0.0);
     shown.iter().zip(now).any(differ)
 }
@@ -160,45 +153,54 @@ mod tests {
         MeshPart { stains, rest, rest_normals: vec![[0.0, 0.0, 1.0]; count], ..MeshPart::default() }
     }
 
+    /// Changes of a part of which some vertices are stained otherwise, and some are new.
+    fn changes(stained: std::ops::Range<usize>, renewed: std::ops::Range<usize>) -> PartChanges {
+        let mut changes = PartChanges::default();
+        changes.stained.add(stained);
+        changes.renewed.add(renewed);
+        changes
+    }
+
     #[test]
     fn only_vertices_that_look_different_are_coloured_again() {
         let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Colors, edge: 0.01 };
         let mut stains = vec![[0.0, 0.3, 0.0, 0.0]; 40];
         let mut canvas = StainCanvas::new(&part(stains.clone()), writer);
-        assert!(canvas.take_change());
         let before = canvas.colors().to_vec();
         stains.iter_mut().for_each(|s| s[1] += 0.003);
-        canvas.follow(&part(stains.clone()), writer, Renewal::Nothing);
-        assert!(!canvas.take_change(), "nothing to see");
+        let all = changes(0..40, 0..0);
+        canvas.follow(&part(stains.clone()), writer, &all, false);
+        assert!(canvas.changed().is_empty(), "nothing to see");
         stains.iter_mut().take(10).for_each(|s| s[1] += 0.003);
-        canvas.follow(&part(stains.clone()), writer, Renewal::Nothing);
-        assert!(canvas.take_change(), "small changes add up");
+        canvas.follow(&part(stains.clone()), writer, &all, false);
+        assert_eq!(canvas.changed().ranges().collect::<Vec<_>>(), [0..10], "small changes add up");
         let changed = before.iter().zip(canvas.colors()).filter(|(a, b)| a != b).count();
         assert_eq!(changed, 10);
         assert_eq!(canvas.colors()[..10], StainCanvas::new(&part(stains.clone()), writer).colors()[..10]);
         stains.iter_mut().for_each(|s| *s = [0.0; 4]);
-        canvas.follow(&part(stains), writer, Renewal::Nothing);
+        canvas.follow(&part(stains), writer, &all, false);
         assert_eq!(canvas.colors(), vec![[1.0; 4]; 40], "clean again");
     }
 
     #[test]
-    fn vertices_keep_their_colours_when_they_are_numbered_afresh() {
+    fn new_vertices_are_coloured_and_others_keep_their_colours() {
         let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Colors, edge: 0.01 };
-        let stains = vec![[0.0, 0.3, 0.0, 0.0]; 3];
-        let before = MeshPart { keys: vec![4, 9, 2], ..part(stains.clone()) };
-        let mut canvas = StainCanvas::new(&before, writer);
+        let stains = vec![[0.0, 0.3, 0.0, 0.0]; 4];
+        let mut canvas = StainCanvas::new(&part(stains[..3].to_vec()), writer);
         let [a, b, c] = canvas.colors().try_into().expect("three");
-        // The second has gone, another one has come.
-        let after = MeshPart { keys: vec![2, 4, 30], ..part(stains.clone()) };
-        canvas.follow(&after, writer, Renewal::Vertices);
-        assert!(canvas.take_change());
-        assert_eq!(canvas.colors()[..2], [c, a]);
-        assert_ne!(canvas.colors()[2], b, "it lies elsewhere");
-        assert_eq!(canvas.stains(), stains);
-        canvas.follow(&after, writer, Renewal::Everything);
+        // The second stands for another place now, and there is a fourth.
+        let mut after = part(stains);
+        after.rest[1] = [0.7, 0.4, 0.0];
+        let mut some = changes(0..0, 1..2);
+        some.renewed.add(3..4);
+        canvas.follow(&after, writer, &some, false);
+        assert_eq!([canvas.colors()[0], canvas.colors()[2]], [a, c]);
+        assert_ne!(canvas.colors()[1], b, "it lies elsewhere");
+        assert_eq!(canvas.changed().ranges().collect::<Vec<_>>(), [1..2, 3..4]);
         assert_eq!(canvas.colors(), StainCanvas::new(&after, writer).colors());
+        assert!(!canvas.take_relaid());
     }
 
     #[test]
@@ -206,8 +208,11 @@ mod tests {
         let paint = FilmPaint::new(&Coating::default(), 7, Vec3::NEG_Y);
         let writer = StainWriter { part: StainPart::Film, paint: &paint, carrier: StainCarrier::Nothing, edge: 0.01 };
         let mut canvas = StainCanvas::new(&part(vec![[0.0; 4]; 4]), writer);
-        canvas.take_change();
-        canvas.follow(&part(vec![[1.0; 4]; 4]), writer, Renewal::Nothing);
-        assert!(!canvas.take_change());
+        canvas.follow(&part(vec![[1.0; 4]; 4]), writer, &changes(0..4, 0..0), false);
+        assert!(canvas.changed().is_empty());
+        let colors = StainWriter { carrier: StainCarrier::Colors, ..writer };
+        canvas.follow(&part(vec![[1.0; 4]; 4]), colors, &PartChanges::default(), false);
+        assert!(canvas.take_relaid(), "the mesh needs colours");
+        assert_eq!(canvas.changed().ranges().collect::<Vec<_>>(), [0..4]);
     }
 }

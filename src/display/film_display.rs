@@ -13,9 +13,10 @@ use bevy::{
 };
 
 use super::{
-    canvas::{Renewal, StainCanvas, StainCarrier, StainWriter},
+    canvas::{StainCanvas, StainCarrier, StainWriter},
     film_paint::FilmPaint,
-    mesh::{PartSpace, move_part, new_mesh, write_part, write_stains},
+    level::LevelChange,
+    mesh::{PartSpace, new_mesh, patch_part, write_part},
 };
 use crate::{
     api::{diagnostics::CoatingTimings, display_cost::DisplayCost, stain_display::StainDisplay},
@@ -42,8 +43,12 @@ pub(crate) struct FilmDisplay {
     pub(super) space: PartSpace,
     /// Display mode, colours and patterns of the stains.
     pub(super) paint: FilmPaint,
+    /// Mean edge of the film, in metres.
+    pub(super) film_edge: f32,
     /// Mean distance between the vertices that are shown, in metres.
     pub(super) edge: f32,
+    /// The film at another level, while that is prepared.
+    pub(super) next: Option<LevelChange>,
     /// Whether the materials have not been updated to `paint` yet.
     #[cfg(feature = "render")]
     pub(super) materials_outdated: bool,
@@ -73,6 +78,8 @@ pub(super) struct DisplaySlot {
     handle: Option<Handle<Mesh>>,
     /// Stains as the mesh shows them.
     canvas: StainCanvas,
+    /// Whether the mesh shows the part, and not a stand-in for one without triangles.
+    shown: bool,
 }
 
 impl FilmDisplay {
@@ -90,13 +97,18 @@ impl FilmDisplay {
         paint: FilmPaint,
         detail: Detail,
     ) -> Result<Self, BuildError> {
-        let empty = |attributes| DisplaySlot { attributes, mesh: None, handle: None, canvas: StainCanvas::default() };
+        let empty = |attributes| {
+            let canvas = StainCanvas::default();
+            DisplaySlot { attributes, mesh: None, handle: None, canvas, shown: false }
+        };
         let FilmState { mesh, forces, stains, .. } = film;
         Ok(Self {
             appearance: FilmAppearance::with_detail(built, surface, mesh, forces, stains, detail)?,
             space: PartSpace::new(scale, origin),
             paint,
-            edge: mesh.geometry.mean_edge / (1u32 << detail.level.min(FaceGrid::MOST)) as f32,
+            film_edge: mesh.geometry.mean_edge,
+            edge: edge_at(mesh.geometry.mean_edge, detail.level),
+            next: None,
             #[cfg(feature = "render")]
             // The prop may still wear the materials of an earlier film.
             materials_outdated: true,
@@ -115,15 +127,31 @@ impl FilmDisplay {
     /// background, as the end of a build.
     pub fn prepare(&mut self, film: &FilmState) {
         self.appearance.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
-        for (slot, display) in self.slots.iter_mut().enumerate() {
-            // A primitive of which nothing was left after cleaning keeps its mesh.
-            let Some(part) = self.appearance.front(slot) else { continue };
-            let mut mesh = new_mesh();
-            display.canvas = StainCanvas::new(part, front_writer(&self.paint, self.edge));
-            display.canvas.take_change();
-            write_part(&mut mesh, part, display.attributes, self.space, &display.canvas);
-            display.mesh = Some(mesh);
+        let Self { appearance, slots, paint, space, edge, .. } = self;
+        for (slot, display) in slots.iter_mut().enumerate() {
+            if let Some(new) = write_front(appearance, slot, display.attributes, paint, *edge, *space) {
+                (display.mesh, display.canvas, display.shown) = (Some(new.mesh), new.canvas, new.shown);
+            }
         }
+    }
+
+    /// Shows the film as it was prepared at another level, with `paint`. What has changed since then must follow.
+    pub(super) fn take_level(&mut self, prepared: PreparedLevel, assets: &mut Assets<Mesh>) {
+        let PreparedLevel { mut appearance, fronts, paint } = prepared;
+        appearance.hide_as(&self.appearance);
+        self.edge = edge_at(self.film_edge, appearance.level());
+        self.appearance = appearance;
+        self.repainted |= paint != self.paint;
+        for (slot, front) in self.slots.iter_mut().zip(fronts) {
+            let Some(FrontMesh { mesh, canvas, shown }) = front else { continue };
+            (slot.canvas, slot.shown) = (canvas, shown);
+            if let Some(mut asset) = slot.handle.as_ref().and_then(|handle| assets.get_mut(handle)) {
+                *asset = mesh;
+            }
+        }
+        #[cfg(feature = "render")]
+        self.parts.forget();
+        self.urgent = true;
     }
 
     /// Returns a display for a copy of the film, with meshes and parts of its own.
@@ -134,12 +162,15 @@ impl FilmDisplay {
             mesh: mesh_of(slot),
             handle: None,
             canvas: slot.canvas.clone(),
+            shown: slot.shown,
         };
         Self {
             appearance: self.appearance.clone(),
             space: self.space,
             paint: self.paint.clone(),
+            film_edge: self.film_edge,
             edge: self.edge,
+            next: None,
             #[cfg(feature = "render")]
             materials_outdated: true,
             slots: self.slots.iter().map(copy).collect(),
@@ -191,27 +222,21 @@ impl FilmDisplay {
         let vertices: usize =
             (0..self.slots.len()).filter_map(|slot| Some(self.appearance.front(slot)?.positions.len())).sum();
         let stains = if self.paint.display == StainDisplay::VertexColor { COLORING } else { 1 };
-        let parts = u64::from(changes.moved) + 2 * u64::from(changes.topology || changes.exposure);
-        (parts + stains * u64::from(changes.stains || changes.topology)) * vertices as u64
+        let parts = 2 * u64::from(changes.moved) + u64::from(changes.topology || changes.exposure);
+        (parts + stains * u64::from(changes.stains)) * vertices as u64
     }
 
     /// Brings the stains that are drawn up to date with the appearance.
     fn follow_stains(&mut self) {
-        let Self { appearance, slots, paint, edge, changes, .. } = self;
+        let Self { appearance, slots, paint, edge, .. } = self;
         let repainted = std::mem::take(&mut self.repainted);
-        let renewal = match (repainted, changes.topology) {
-            (true, _) => Renewal::Everything,
-            (false, true) => Renewal::Vertices,
-            (false, false) => Renewal::Nothing,
-        };
-        if renewal != Renewal::Nothing || changes.stains {
-            for (slot, display) in slots.iter_mut().enumerate() {
-                let Some(part) = appearance.front(slot) else { continue };
-                display.canvas.follow(part, front_writer(paint, *edge), renewal);
+        for (slot, display) in slots.iter_mut().enumerate() {
+            if let (Some(part), Some(changes)) = (appearance.front(slot), appearance.front_changes(slot)) {
+                display.canvas.follow(part, front_writer(paint, *edge), changes, repainted);
             }
         }
         #[cfg(feature = "render")]
-        self.parts.follow_stains(appearance, paint, *edge, *changes, repainted);
+        self.parts.follow_stains(appearance, paint, *edge, repainted);
     }
 }
 
@@ -236,6 +261,58 @@ pub(super) fn follow_films(
     });
 }
 
+/// Returns the mean distance between the vertices that show a film with edges of `film_edge` at `level`.
+fn edge_at(film_edge: f32, level: u32) -> f32 {
+    film_edge / (1u32 << level.min(FaceGrid::MOST)) as f32
+}
+
+/// Front of one primitive as a mesh that is not an asset yet.
+pub(super) struct FrontMesh {
+    mesh: Mesh,
+    canvas: StainCanvas,
+    /// Whether the mesh shows the part, and not a stand-in for one without triangles.
+    shown: bool,
+}
+
+/// Writes the front of a slot to a new mesh. `None` for a primitive of which nothing was left after cleaning: it keeps
+/// its mesh.
+fn write_front(
+    appearance: &FilmAppearance,
+    slot: usize,
+    attributes: SlotAttributes,
+    paint: &FilmPaint,
+    edge: f32,
+    space: PartSpace,
+) -> Option<FrontMesh> {
+    let part = appearance.front(slot)?;
+    let (mut mesh, canvas) = (new_mesh(), StainCanvas::new(part, front_writer(paint, edge)));
+    let shown = write_part(&mut mesh, part, attributes, space, &canvas);
+    Some(FrontMesh { mesh, canvas, shown })
+}
+
+/// Film as it was prepared at another level.
+pub(super) struct PreparedLevel {
+    appearance: FilmAppearance,
+    fronts: Vec<Option<FrontMesh>>,
+    paint: FilmPaint,
+}
+
+impl PreparedLevel {
+    /// Writes the meshes of `appearance`, for a film with edges of `film_edge`.
+    pub fn new(
+        appearance: FilmAppearance,
+        attributes: &[SlotAttributes],
+        paint: FilmPaint,
+        film_edge: f32,
+        space: PartSpace,
+    ) -> Self {
+        let edge = edge_at(film_edge, appearance.level());
+        let front = |(slot, &attributes)| write_front(&appearance, slot, attributes, &paint, edge, space);
+        let fronts = attributes.iter().enumerate().map(front).collect();
+        Self { appearance, fronts, paint }
+    }
+}
+
 /// Returns the settings with which the stains of fronts are written to their meshes.
 fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
     let carrier = match paint.display {
@@ -257,28 +334,25 @@ pub(super) fn write_fronts(
         cost.measure(|| {
             for mut display in &mut films {
                 let display = display.bypass_change_detection();
-                let changes = display.changes;
-                if !(changes.topology || changes.moved || changes.stains) {
+                if display.changes.is_empty() {
                     continue;
                 }
-                for (slot, front) in display.slots.iter_mut().enumerate() {
-                    let Some(part) = display.appearance.front(slot) else { continue };
-                    let stained = front.canvas.take_change();
-                    if !(changes.topology || changes.moved || stained) {
+                let FilmDisplay { appearance, slots, space, .. } = display;
+                for (slot, front) in slots.iter_mut().enumerate() {
+                    let (Some(part), Some(changes)) = (appearance.front(slot), appearance.front_changes(slot)) else {
+                        continue;
+                    };
+                    let whole = changes.whole || front.canvas.take_relaid() || !front.shown;
+                    if !whole && changes.is_empty() && front.canvas.changed().is_empty() {
                         continue;
                     }
                     let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else {
                         continue;
                     };
-                    if changes.topology {
-                        write_part(&mut mesh, part, front.attributes, display.space, &front.canvas);
-                        continue;
-                    }
-                    if changes.moved {
-                        move_part(&mut mesh, part, display.space);
-                    }
-                    if stained {
-                        write_stains(&mut mesh, part, &front.canvas);
+                    if whole {
+                        front.shown = write_part(&mut mesh, part, front.attributes, *space, &front.canvas);
+                    } else {
+                        patch_part(&mut mesh, part, changes, front.attributes, *space, &front.canvas);
                     }
                 }
             }

@@ -7,7 +7,10 @@ use bevy::{
 };
 
 use super::canvas::{StainCanvas, StainCarrier};
-use crate::{appearance::MeshPart, mesh_reader::SlotAttributes};
+use crate::{
+    appearance::{IndexRanges, MeshPart, PartChanges},
+    mesh_reader::SlotAttributes,
+};
 
 /// Vertex attribute with the stains of a film's meshes: layers of rust (0 to 1), dust, moisture and corrosion of the
 /// metal, as [`MeshPart::stains`] has them. It is present while stains are drawn by a material
@@ -99,14 +102,15 @@ pub(super) fn new_mesh() -> Mesh {
 }
 
 /// Writes a whole part: positions, normals, the further attributes that the prop's own mesh has, and the attributes
-/// that carry the stains. For an empty part it writes one triangle without area, as a mesh must not be empty.
+/// that carry the stains. For an empty part it writes one triangle without area, as a mesh must not be empty, and
+/// returns false.
 pub(super) fn write_part(
     mesh: &mut Mesh,
     part: &MeshPart,
     attributes: SlotAttributes,
     space: PartSpace,
     canvas: &StainCanvas,
-) {
+) -> bool {
     let count = part.positions.len();
     let nothing = part.is_empty();
     let positions: Vec<_> = part.positions.iter().map(|&p| space.position(p)).collect();
@@ -136,22 +140,17 @@ pub(super) fn write_part(
         remove(mesh, ATTRIBUTE_REST_NORMAL);
         remove(mesh, ATTRIBUTE_STAINS);
     }
-    write_stains(mesh, part, canvas);
-    let [a, b, c] = space.index_order();
-    let indices =
-        if nothing { vec![0, 1, 2] } else { part.indices.chunks_exact(3).flat_map(|t| [t[a], t[b], t[c]]).collect() };
-    // This fails only for meshes whose data is on the GPU only, which the plugin's meshes never are.
-    let _ = mesh.try_insert_indices(Indices::U32(indices));
-}
-
-/// Writes the stains of a part whose vertices are those of the last [`write_part`], as `canvas` has them.
-pub(super) fn write_stains(mesh: &mut Mesh, part: &MeshPart, canvas: &StainCanvas) {
-    let nothing = part.is_empty();
     match canvas.carrier() {
         StainCarrier::Attributes => insert(mesh, ATTRIBUTE_STAINS, whole(canvas.stains(), nothing, [0.0; 4])),
         StainCarrier::Colors => insert(mesh, Mesh::ATTRIBUTE_COLOR, whole(canvas.colors(), nothing, [1.0; 4])),
         StainCarrier::Nothing => {}
     }
+    let [a, b, c] = space.index_order();
+    let indices =
+        if nothing { vec![0, 1, 2] } else { part.indices.chunks_exact(3).flat_map(|t| [t[a], t[b], t[c]]).collect() };
+    // This fails only for meshes whose data is on the GPU only, which the plugin's meshes never are.
+    let _ = mesh.try_insert_indices(Indices::U32(indices));
+    !nothing
 }
 
 /// Returns the values of an attribute, or `stand_in` for each corner of the triangle of an empty part.
@@ -159,26 +158,92 @@ fn whole<T: Copy>(values: &[T], nothing: bool, stand_in: T) -> Vec<T> {
     if nothing { vec![stand_in; 3] } else { values.to_vec() }
 }
 
-/// Writes positions, normals and tangents of a part whose vertices are those of the last [`write_part`].
-pub(super) fn move_part(mesh: &mut Mesh, part: &MeshPart, space: PartSpace) {
-    if part.is_empty() {
+/// Writes what `changes` and `canvas` tell of a part that is not empty, to a mesh that shows the part before them.
+pub(super) fn patch_part(
+    mesh: &mut Mesh,
+    part: &MeshPart,
+    changes: &PartChanges,
+    attributes: SlotAttributes,
+    space: PartSpace,
+    canvas: &StainCanvas,
+) {
+    let PartChanges { renewed, moved, indices, .. } = changes;
+    patch(mesh, Mesh::ATTRIBUTE_POSITION, &part.positions, moved, |p| space.position(p));
+    patch(mesh, Mesh::ATTRIBUTE_NORMAL, &part.normals, moved, |n| space.normal(n));
+    patch(mesh, Mesh::ATTRIBUTE_TANGENT, &part.tangents, moved, |t| space.tangent(t));
+    patch(mesh, Mesh::ATTRIBUTE_UV_0, &part.uvs, renewed, |uv| uv);
+    patch(mesh, Mesh::ATTRIBUTE_UV_1, &part.uvs_1, renewed, |uv| uv);
+    match canvas.carrier() {
+        StainCarrier::Attributes => {
+            patch(mesh, ATTRIBUTE_REST, &part.rest, renewed, |p| p);
+            patch(mesh, ATTRIBUTE_REST_NORMAL, &part.rest_normals, renewed, |n| n);
+            patch(mesh, ATTRIBUTE_STAINS, canvas.stains(), canvas.changed(), |stains| stains);
+        }
+        StainCarrier::Colors => patch(mesh, Mesh::ATTRIBUTE_COLOR, canvas.colors(), canvas.changed(), |color| color),
+        StainCarrier::Nothing => {}
+    }
+    if attributes.colors && canvas.carrier() != StainCarrier::Colors {
+        patch(mesh, Mesh::ATTRIBUTE_COLOR, &part.colors, renewed, |color| color);
+    }
+    if indices.is_empty() {
         return;
     }
-    if let Ok(VertexAttributeValues::Float32x3(values)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_POSITION) {
-        renew(values, &part.positions, |p| space.position(p));
-    }
-    if let Ok(VertexAttributeValues::Float32x3(values)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_NORMAL) {
-        renew(values, &part.normals, |n| space.normal(n));
-    }
-    if let Ok(Some(VertexAttributeValues::Float32x4(values))) = mesh.try_attribute_mut_option(Mesh::ATTRIBUTE_TANGENT) {
-        renew(values, &part.tangents, |t| space.tangent(t));
+    if let Ok(Some(Indices::U32(values))) = mesh.try_indices_mut_option() {
+        values.resize(part.indices.len(), 0);
+        let [a, b, c] = space.index_order();
+        for range in indices.ranges() {
+            for (to, t) in values[range.clone()].chunks_exact_mut(3).zip(part.indices[range].chunks_exact(3)) {
+                to.copy_from_slice(&[t[a], t[b], t[c]]);
+            }
+        }
     }
 }
 
-/// Rewrites `values` with the transformed values of `from`.
-fn renew<T: Copy>(values: &mut Vec<T>, from: &[T], turn: impl Fn(T) -> T) {
-    values.clear();
-    values.extend(from.iter().map(|&value| turn(value)));
+/// Writes the transformed values of some vertices to an attribute, if the mesh has it, and lets it grow with the part.
+fn patch<const N: usize>(
+    mesh: &mut Mesh,
+    attribute: MeshVertexAttribute,
+    from: &[[f32; N]],
+    ranges: &IndexRanges,
+    turn: impl Fn([f32; N]) -> [f32; N],
+) where
+    VertexAttributeValues: Floats<N>,
+{
+    if ranges.is_empty() || from.is_empty() {
+        return;
+    }
+    let Ok(Some(values)) = mesh.try_attribute_mut_option(attribute) else { return };
+    let Some(values) = values.floats() else { return };
+    values.resize(from.len(), [0.0; N]);
+    for range in ranges.ranges() {
+        for (to, &value) in values[range.clone()].iter_mut().zip(&from[range]) {
+            *to = turn(value);
+        }
+    }
+}
+
+/// Values of an attribute with `N` numbers a vertex.
+trait Floats<const N: usize> {
+    /// Returns the values; `None` if they are of another kind.
+    fn floats(&mut self) -> Option<&mut Vec<[f32; N]>>;
+}
+
+impl Floats<2> for VertexAttributeValues {
+    fn floats(&mut self) -> Option<&mut Vec<[f32; 2]>> {
+        if let Self::Float32x2(values) = self { Some(values) } else { None }
+    }
+}
+
+impl Floats<3> for VertexAttributeValues {
+    fn floats(&mut self) -> Option<&mut Vec<[f32; 3]>> {
+        if let Self::Float32x3(values) = self { Some(values) } else { None }
+    }
+}
+
+impl Floats<4> for VertexAttributeValues {
+    fn floats(&mut self) -> Option<&mut Vec<[f32; 4]>> {
+        if let Self::Float32x4(values) = self { Some(values) } else { None }
+    }
 }
 
 /// Sets an attribute of a mesh.

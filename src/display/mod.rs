@@ -16,6 +16,7 @@ mod canvas;
 mod custom_materials;
 mod film_display;
 mod film_paint;
+mod level;
 #[cfg(feature = "render")]
 mod material;
 mod mesh;
@@ -79,6 +80,7 @@ impl Plugin for FilmDisplayPlugin {
             PostUpdate,
             (
                 paint::follow_coatings,
+                level::follow_distances,
                 share::choose_films,
                 film_display::follow_films,
                 film_display::write_fronts,

@@ -42,10 +42,6 @@ pub(super) fn follow_coatings(
             display.materials_outdated = true;
             display.parts.outdated = true;
         }
-        let changes = changes.bypass_change_detection();
-        changes.stains = true;
-        // Another way of drawing stains needs another layout of the meshes.
-        changes.topology |= other;
-        changes.exposure |= other;
+        changes.bypass_change_detection().stains = true;
     }
 }

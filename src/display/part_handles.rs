@@ -3,13 +3,13 @@
 use bevy::{asset::Handle, ecs::entity::Entity, mesh::Mesh, pbr::StandardMaterial};
 
 use super::{
-    canvas::{Renewal, StainCanvas, StainWriter},
+    canvas::{StainCanvas, StainWriter},
     film_paint::FilmPaint,
     material::extension::StainedMaterial,
     outline::Outline,
 };
 use crate::{
-    appearance::{DisplayChanges, FilmAppearance, shading::StainPart},
+    appearance::{FilmAppearance, shading::StainPart},
     mesh_reader::SlotAttributes,
 };
 
@@ -42,6 +42,8 @@ pub(super) struct PartHandle {
     pub attributes: SlotAttributes,
     /// Stains as the mesh shows them.
     pub canvas: StainCanvas,
+    /// Whether the mesh shows the part, and not a stand-in for one without triangles.
+    pub shown: bool,
 }
 
 /// Material of a part.
@@ -54,30 +56,24 @@ pub(super) enum PartMaterial {
 
 impl PartHandles {
     /// Brings the stains that are drawn up to date with the appearance, for parts that have been spawned.
-    pub fn follow_stains(
-        &mut self,
-        appearance: &FilmAppearance,
-        paint: &FilmPaint,
-        edge: f32,
-        changes: DisplayChanges,
-        repainted: bool,
-    ) {
+    pub fn follow_stains(&mut self, appearance: &FilmAppearance, paint: &FilmPaint, edge: f32, repainted: bool) {
         for (slot, parts) in self.slots.iter_mut().enumerate() {
-            let backs = (StainPart::Back, &mut parts.backs, appearance.backs(slot), changes.topology);
-            let metal = (StainPart::Metal, &mut parts.metal, appearance.metal(slot), false);
-            for (kind, part, arrays, renumbered) in [backs, metal] {
-                let renewal = match (repainted, renumbered || changes.exposure) {
-                    (true, _) => Renewal::Everything,
-                    (false, true) => Renewal::Vertices,
-                    (false, false) => Renewal::Nothing,
-                };
-                if let (Some(part), Some(arrays)) = (part, arrays)
-                    && (renewal != Renewal::Nothing || changes.stains)
-                {
-                    let carrier = part.canvas.carrier();
-                    part.canvas.follow(arrays, StainWriter { part: kind, paint, carrier, edge }, renewal);
+            let backs = (&mut parts.backs, appearance.backs(slot), appearance.back_changes(slot));
+            let metal = (&mut parts.metal, appearance.metal(slot), appearance.metal_changes(slot));
+            for (kind, (handle, part, changes)) in [(StainPart::Back, backs), (StainPart::Metal, metal)] {
+                if let (Some(handle), Some(part), Some(changes)) = (handle, part, changes) {
+                    let carrier = handle.canvas.carrier();
+                    handle.canvas.follow(part, StainWriter { part: kind, paint, carrier, edge }, changes, repainted);
                 }
             }
+        }
+    }
+
+    /// Takes everything that the meshes show as void, as when the film is shown at another level.
+    pub fn forget(&mut self) {
+        for part in self.slots.iter_mut().flat_map(|slot| [&mut slot.backs, &mut slot.metal]).flatten() {
+            part.canvas.forget();
+            part.shown = false;
         }
     }
 

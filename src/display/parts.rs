@@ -22,7 +22,7 @@ use super::{
     canvas::{StainCanvas, StainCarrier, StainWriter},
     film_display::FilmDisplay,
     material::extension::StainedMaterial,
-    mesh::{move_part, new_mesh, write_part, write_stains},
+    mesh::{new_mesh, patch_part, write_part},
     outline::Outline,
     part_handles::{PartHandle, PartMaterial, SlotParts},
     part_material,
@@ -111,8 +111,11 @@ impl PartAssets<'_, '_> {
     fn show_part(&mut self, kind: StainPart, part: &mut Option<PartHandle>, outline: &Outline, show: &Show) {
         let Show { display, slot, .. } = show;
         let appearance = &display.appearance;
-        let arrays = if kind == StainPart::Back { appearance.backs(*slot) } else { appearance.metal(*slot) };
-        let (Some(arrays), Some(own)) = (arrays, display.slots.get(*slot)) else { return };
+        let (arrays, changes) = match kind {
+            StainPart::Back => (appearance.backs(*slot), appearance.back_changes(*slot)),
+            _ => (appearance.metal(*slot), appearance.metal_changes(*slot)),
+        };
+        let (Some(arrays), Some(changes), Some(own)) = (arrays, changes, display.slots.get(*slot)) else { return };
         // Vertex colours and a texture would be multiplied, and only the alpha of a mask is wanted.
         let in_detail = display.paint.display == StainDisplay::Material || outline.is_masked();
         let by_material = in_detail && self.stained.is_some();
@@ -126,36 +129,30 @@ impl PartAssets<'_, '_> {
                 return;
             }
             let mut mesh = new_mesh();
-            let mut canvas = StainCanvas::new(arrays, stains);
-            canvas.take_change();
-            write_part(&mut mesh, arrays, attributes, display.space, &canvas);
+            let canvas = StainCanvas::new(arrays, stains);
+            let shown = write_part(&mut mesh, arrays, attributes, display.space, &canvas);
             let mesh = self.meshes.add(mesh);
             let material = self.add_material(kind, outline, by_material, display);
             let entity = self.spawn(kind, &mesh, &material, show.entity);
-            *part = entity.map(|entity| PartHandle { entity, mesh, material, attributes, canvas });
+            *part = entity.map(|entity| PartHandle { entity, mesh, material, attributes, canvas, shown });
             return;
         };
         if show.outdated {
             self.renew_material(part, kind, outline, display);
         }
-        let (moves, changes) = (kind == StainPart::Back, show.changes);
-        let whole = changes.exposure || (changes.topology && moves) || part.attributes != attributes;
-        let moved = moves && changes.moved;
-        let stained = part.canvas.take_change();
-        if !(whole || stained || moved) {
+        let whole = changes.whole || part.canvas.take_relaid() || !part.shown;
+        // What the last update changed is written once.
+        let whole = (whole && !show.changes.is_empty()) || part.attributes != attributes;
+        let unchanged = show.changes.is_empty() || (changes.is_empty() && part.canvas.changed().is_empty());
+        if unchanged && !whole {
             return;
         }
         let Some(mut mesh) = self.meshes.get_mut(&part.mesh) else { return };
         if whole {
             part.attributes = attributes;
-            write_part(&mut mesh, arrays, attributes, display.space, &part.canvas);
-            return;
-        }
-        if moved {
-            move_part(&mut mesh, arrays, display.space);
-        }
-        if stained {
-            write_stains(&mut mesh, arrays, &part.canvas);
+            part.shown = write_part(&mut mesh, arrays, attributes, display.space, &part.canvas);
+        } else {
+            patch_part(&mut mesh, arrays, changes, attributes, display.space, &part.canvas);
         }
     }
 

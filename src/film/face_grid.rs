@@ -67,6 +67,22 @@ impl FaceGrid {
         &self.points
     }
 
+    /// Returns the points of this grid that are those of `coarser`, whose level is not above that of this.
+    ///
+    /// ```
+    /// use bevy_coating::film::FaceGrid;
+    ///
+    /// let (fine, coarse) = (FaceGrid::new(3), FaceGrid::new(1));
+    /// let same = fine.points_of(&coarse);
+    /// assert!(same.iter().zip(coarse.points()).all(|(&i, &point)| fine.points()[i as usize] == point));
+    /// ```
+    pub fn points_of(&self, coarser: &Self) -> Vec<u32> {
+        let step = 1 << (self.level - coarser.level.min(self.level));
+        let (n, rows) = (1u32 << self.level, 1u32 << coarser.level);
+        let before = |j: u32| j * (n + 1) - j * j.saturating_sub(1) / 2;
+        (0..=rows).flat_map(|j| (0..=rows - j).map(move |i| before(j * step) + i * step)).collect()
+    }
+
     /// Returns the points of each small triangle, wound as the face.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles

@@ -227,6 +227,24 @@ impl Topology {
         self.all_half_edges().filter(|&h| h < self.twins[h.index()])
     }
 
+    /// Returns the vertex at which each half-edge starts.
+    #[inline]
+    pub(crate) fn origins(&self) -> &[VertexId] {
+        &self.origins
+    }
+
+    /// Returns whether the edge of each half-edge is torn.
+    #[inline]
+    pub(crate) fn torn(&self) -> &[bool] {
+        &self.torn
+    }
+
+    /// Returns the vertex of the rest state that each vertex is, or is a duplicate of.
+    #[inline]
+    pub(crate) fn originals(&self) -> &[VertexId] {
+        &self.originals
+    }
+
     /// Returns the vertex at which `h` starts.
     #[inline]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {

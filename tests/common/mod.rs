@@ -92,6 +92,13 @@ pub fn update_until(app: &mut App, mut done: impl FnMut(&mut App) -> bool) {
     panic!("nothing happened within {PATIENCE} frames");
 }
 
+/// Corners of each triangle of a mesh, but for those that are gone: they are left without area.
+pub fn triangles_of(mesh: &Mesh) -> Vec<[usize; 3]> {
+    let indices: Vec<usize> = mesh.indices().expect("indices").iter().collect();
+    let triangles = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
+    triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect()
+}
+
 /// Stops the clock and updates until `films` films are ready.
 pub fn wait_for_films(app: &mut App, films: usize) {
     app.world_mut().resource_mut::<CoatingClock>().paused = true;

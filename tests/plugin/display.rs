@@ -23,8 +23,7 @@ fn positions(mesh: &Mesh) -> Vec<Vec3> {
 /// Corner positions of each triangle.
 fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     let positions = positions(mesh);
-    let indices: Vec<usize> = mesh.indices().expect("indices").iter().collect();
-    indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|i| positions[i])).collect()
+    triangles_of(mesh).into_iter().map(|t| t.map(|i| positions[i])).collect()
 }
 
 /// Updates, and counts the meshes that were touched.

@@ -2,16 +2,23 @@
 
 use bevy_math::{Vec2, Vec3, Vec4};
 
+use super::patch::weights;
 use crate::{
-    appearance::corners::{CornerAttributes, sample},
+    appearance::{
+        corners::{CornerAttributes, sample},
+        part::MeshPart,
+    },
     film::{FaceGrid, FaceId, FilmMesh},
-    remesh::FineSites,
-    surface::Surface,
+    remesh::{BuiltFilm, FineSites, fine_sites},
+    surface::{BuildError, Surface},
 };
 
-/// Positions and attributes of every point of every face's grid at rest, face by face.
+/// Grid of every face, and positions and attributes of each of its points at rest, face by face.
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Base {
+    pub grid: FaceGrid,
+    /// Weights of a patch's control points at each point of the grid.
+    pub weights: Vec<[f32; 10]>,
     /// Number of points of a face.
     pub points: usize,
     pub positions: Vec<Vec3>,
@@ -30,14 +37,50 @@ pub(super) struct Place {
 }
 
 impl Base {
-    /// Samples `surface` at `sites`. Where the prop has no normals they are those at the film's corners, interpolated.
-    pub fn new(
-        sites: &FineSites,
+    /// Samples `surface` at the points of the grids of `level`.
+    ///
+    /// # Errors
+    /// The errors of [`fine_sites`].
+    pub fn sample(
+        built: &BuiltFilm,
         surface: &Surface,
         mesh: &FilmMesh,
         corners: &CornerAttributes,
-        grid: &FaceGrid,
-    ) -> Self {
+        level: u32,
+    ) -> Result<Self, BuildError> {
+        let grid = FaceGrid::new(level);
+        let sites = fine_sites(surface, built, &grid)?;
+        Ok(Self::new(&sites, surface, mesh, corners, grid))
+    }
+
+    /// Returns the same at the points of the grids of `level`, which is not above that of this.
+    pub fn coarser(&self, level: u32) -> Self {
+        let grid = FaceGrid::new(level);
+        let own = self.grid.points_of(&grid);
+        let faces = self.positions.len() / self.points.max(1);
+        let indices = || (0..faces).flat_map(|f| own.iter().map(move |&i| f * self.points + i as usize));
+        fn pick<T: Copy>(values: &[T], indices: impl Iterator<Item = usize>) -> Vec<T> {
+            if values.is_empty() { Vec::new() } else { indices.map(|i| values[i]).collect() }
+        }
+        let CornerAttributes { normals, uvs, uvs_1, tangents, colors } = &self.attributes;
+        let attributes = CornerAttributes {
+            normals: pick(normals, indices()),
+            uvs: pick(uvs, indices()),
+            uvs_1: pick(uvs_1, indices()),
+            tangents: pick(tangents, indices()),
+            colors: pick(colors, indices()),
+        };
+        Self {
+            weights: own.iter().map(|&i| self.weights[i as usize]).collect(),
+            points: own.len(),
+            positions: pick(&self.positions, indices()),
+            attributes,
+            grid,
+        }
+    }
+
+    /// Samples `surface` at `sites`. Where the prop has no normals they are those at the film's corners, interpolated.
+    fn new(sites: &FineSites, surface: &Surface, mesh: &FilmMesh, corners: &CornerAttributes, grid: FaceGrid) -> Self {
         let mut positions = sites.positions.clone();
         let count = grid.points().len() * mesh.topology.face_count();
         // As many as there are faces, whatever came in.
@@ -65,7 +108,8 @@ impl Base {
             tangents,
             colors: sample(&surface.colors, &sites.sites),
         };
-        Self { points: grid.points().len(), positions, attributes }
+        let weights = grid.points().iter().map(|&b| weights(b)).collect();
+        Self { points: grid.points().len(), weights, positions, attributes, grid }
     }
 
     /// Returns the index of the point `i` of the face `f`.
@@ -74,10 +118,31 @@ impl Base {
         f.index() * self.points + i
     }
 
+    /// Writes the triangles of a face whose vertices begin at `vertex`, from the index `index` on; with `flipped`, wound
+    /// the other way.
+    pub(super) fn put_triangles(&self, part: &mut MeshPart, vertex: u32, index: u32, flipped: bool) {
+        for (i, triangle) in self.grid.triangles().iter().enumerate() {
+            part.put_triangle(index as usize + 3 * i, triangle.map(|point| vertex + point), flipped);
+        }
+    }
+
+    /// Returns what lies at the point `i` of the face `f`.
+    pub(super) fn of(&self, f: FaceId, i: usize) -> Place {
+        let at = self.index(f, i);
+        let CornerAttributes { normals, uvs, uvs_1, colors, .. } = &self.attributes;
+        Place {
+            position: self.positions[at],
+            normal: normals[at],
+            uv: uvs.get(at).copied(),
+            uv_1: uvs_1.get(at).copied(),
+            color: colors.get(at).copied(),
+        }
+    }
+
     /// Returns what lies at the barycentric coordinates `b` of the face `f`: linear between the points of its grid, and
     /// beyond its edges a continuation.
-    pub(super) fn at(&self, grid: &FaceGrid, f: FaceId, b: Vec3) -> Place {
-        let (points, weights) = grid.locate(b);
+    pub(super) fn at(&self, f: FaceId, b: Vec3) -> Place {
+        let (points, weights) = self.grid.locate(b);
         let indices = points.map(|i| self.index(f, i as usize));
         let CornerAttributes { normals, uvs, uvs_1, colors, .. } = &self.attributes;
         Place {

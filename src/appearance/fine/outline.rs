@@ -7,7 +7,7 @@ use super::{
     chips::Chip,
     patch::{Patch, weights},
 };
-use crate::film::{FaceGrid, FaceId, FilmMesh, HalfEdgeId};
+use crate::film::{FaceId, FilmMesh, HalfEdgeId};
 
 /// Entry of a face whose outline is straight.
 const STRAIGHT: u32 = u32::MAX;
@@ -23,21 +23,23 @@ pub(super) struct Outlines {
     block: Vec<u32>,
     /// Weights of the patch's control points at each point of a chipped face, and its barycentric coordinates.
     chipped: Vec<([f32; 10], Vec3)>,
+    /// Blocks of `chipped` that no face has any more.
+    free: Vec<u32>,
     /// Offset of each point of each face from the patch at rest.
     pub offsets: Vec<Vec3A>,
 }
 
 impl Outlines {
     /// Returns the outlines of a film without cracks.
-    pub fn new(mesh: &FilmMesh, base: &Base, grid_weights: &[[f32; 10]], amplitude: f32) -> Self {
+    pub fn new(mesh: &FilmMesh, base: &Base, amplitude: f32) -> Self {
         let faces = mesh.topology.face_count();
         let mut offsets = Vec::with_capacity(base.positions.len());
         for f in mesh.topology.all_faces() {
             let patch = rest_patch(mesh, f);
             let at_rest = |i: usize| base.positions.get(base.index(f, i)).copied().unwrap_or_default();
-            offsets.extend(grid_weights.iter().enumerate().map(|(i, w)| Vec3A::from(at_rest(i)) - patch.at(w)));
+            offsets.extend(base.weights.iter().enumerate().map(|(i, w)| Vec3A::from(at_rest(i)) - patch.at(w)));
         }
-        Self { amplitude, torn: vec![0; faces], block: vec![STRAIGHT; faces], chipped: Vec::new(), offsets }
+        Self { amplitude, torn: vec![0; faces], block: vec![STRAIGHT; faces], offsets, ..Self::default() }
     }
 
     /// Returns whether other edges of `f` have torn than when this was last called for it.
@@ -48,33 +50,43 @@ impl Outlines {
     }
 
     /// Shapes the outline of `f` again, and calls `put` with each of its points and what lies there at rest.
-    pub fn shape(
-        &mut self,
-        mesh: &FilmMesh,
-        base: &Base,
-        grid: &FaceGrid,
-        f: FaceId,
-        mut put: impl FnMut(usize, Place),
-    ) {
+    pub fn shape(&mut self, mesh: &FilmMesh, base: &Base, f: FaceId, mut put: impl FnMut(usize, Place)) {
         let chips = self.chips(mesh, f);
+        let block = self.block[f.index()];
         if chips.iter().all(Option::is_none) {
+            if block != STRAIGHT {
+                self.straighten(mesh, base, f, put);
+            }
             return;
         }
-        if self.block[f.index()] == STRAIGHT {
-            self.block[f.index()] = (self.chipped.len() / base.points) as u32;
-            self.chipped.extend(std::iter::repeat_n(([0.0; 10], Vec3::ZERO), base.points));
+        if block == STRAIGHT {
+            self.block[f.index()] = self.free.pop().unwrap_or_else(|| {
+                self.chipped.extend(std::iter::repeat_n(([0.0; 10], Vec3::ZERO), base.points));
+                (self.chipped.len() / base.points - 1) as u32
+            });
         }
         let first = self.block[f.index()] as usize * base.points;
         let patch = rest_patch(mesh, f);
-        for (i, &b) in grid.points().iter().enumerate() {
+        for (i, &b) in base.grid.points().iter().enumerate() {
             let shifted = b + shift(&chips, b);
-            let mut place = base.at(grid, f, shifted);
-            if let Some(on_edge) = self.place_on_crack(mesh, base, grid, f, &chips, b) {
+            let mut place = base.at(f, shifted);
+            if let Some(on_edge) = self.place_on_crack(mesh, base, f, &chips, b) {
                 place.position = on_edge;
             }
             let weights = weights(shifted);
             self.offsets[base.index(f, i)] = Vec3A::from(place.position) - patch.at(&weights);
             self.chipped[first + i] = (weights, shifted);
+            put(i, place);
+        }
+    }
+
+    /// Takes the chips of `f` back, as when its film goes back in time.
+    fn straighten(&mut self, mesh: &FilmMesh, base: &Base, f: FaceId, mut put: impl FnMut(usize, Place)) {
+        self.free.push(std::mem::replace(&mut self.block[f.index()], STRAIGHT));
+        let patch = rest_patch(mesh, f);
+        for (i, weights) in base.weights.iter().enumerate() {
+            let place = base.of(f, i);
+            self.offsets[base.index(f, i)] = Vec3A::from(place.position) - patch.at(weights);
             put(i, place);
         }
     }
@@ -97,7 +109,6 @@ impl Outlines {
         &self,
         mesh: &FilmMesh,
         base: &Base,
-        grid: &FaceGrid,
         f: FaceId,
         chips: &[Option<Chip>; 3],
         b: Vec3,
@@ -107,7 +118,7 @@ impl Outlines {
         let chip = chips[k].as_ref()?;
         let h = HalfEdgeId(f.0 * 3 + k as u32);
         if chip.shift(b) >= 0.0 {
-            return Some(base.at(grid, f, b + shift(chips, b)).position);
+            return Some(base.at(f, b + shift(chips, b)).position);
         }
         let twin = mesh.topology.rest_twin(h)?;
         let (other, j) = (twin.face(), twin.index() % 3);
@@ -116,7 +127,7 @@ impl Outlines {
         there[(j + 1) % 3] = b[k];
         // The other edges of that face do not shift points of this one.
         let chip = Chip::of(mesh, twin, self.amplitude)?;
-        Some(base.at(grid, other, there + chip.moved(chip.shift(there))).position)
+        Some(base.at(other, there + chip.moved(chip.shift(there))).position)
     }
 }
 

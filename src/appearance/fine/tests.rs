@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use bevy_math::{Vec3, Vec3A};
 
-use super::{chips::Chip, lifted};
+use super::{chips::Chip, fronts::lifted};
 use crate::{
-    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart},
+    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, tests::shown},
     film::{FaceGrid, FilmMesh, HalfEdgeId},
     remesh::{
         BuiltFilm,
@@ -65,7 +65,7 @@ fn fresh_paint_is_the_props_own_surface() {
 
 #[test]
 fn bound_neighbours_meet_at_every_level() {
-    for (level, seed) in [(1, 1), (2, 2), (3, 3)] {
+    for (level, seed) in [(1, 1), (2, 2), (3, 3), (4, 4)] {
         let aged = Aged::new(700, seed, level, 1.0);
         let topology = &aged.film.mesh.topology;
         let (mut bound, mut moved) = (0, 0);
@@ -129,11 +129,11 @@ fn rims_join_fronts_and_backs() {
             *edges.entry((a.min(b), a.max(b))).or_insert(0) += 1;
         }
     };
-    for t in aged.front().indices.chunks_exact(3).filter(|t| is_separated(t[0])) {
-        count(aged.front(), t);
+    for t in aged.front().triangles().filter(|t| is_separated(t[0])) {
+        count(aged.front(), &t);
     }
-    for t in backs.indices.chunks_exact(3) {
-        count(backs, t);
+    for t in backs.triangles() {
+        count(backs, &t);
     }
     let open = edges.values().filter(|&&n| n == 1).count();
     // Backs of faces that are partly attached have no front here.
@@ -181,11 +181,34 @@ fn updates_give_what_a_new_surface_would_be() {
         (aged.fine.metal(0), fresh.metal(0)),
     ] {
         let (now, fresh) = (now.unwrap(), fresh.unwrap());
-        assert_eq!(now.indices, fresh.indices);
-        let used = |part: &MeshPart| part.indices.iter().map(|&i| part.positions[i as usize]).collect::<Vec<_>>();
-        assert_eq!(used(now), used(fresh));
-        let stains = |part: &MeshPart| part.indices.iter().map(|&i| part.stains[i as usize]).collect::<Vec<_>>();
-        assert_eq!(stains(now), stains(fresh));
+        assert_eq!(shown(now), shown(fresh));
+    }
+}
+
+#[test]
+fn other_levels_show_the_same_film() {
+    let aged = Aged::new(500, 8, 3, 0.9);
+    let FilmState { mesh, forces, stains, .. } = &aged.film;
+    let live = mesh.topology.live_faces().count();
+    for level in 0..=3u32 {
+        let other = aged.fine.levels().appearance(level, mesh, forces, stains);
+        let (front, finest) = (other.front(0).unwrap(), aged.front());
+        assert_eq!((other.level(), front.triangles().count()), (level, live << (2 * level)));
+        if level == 3 {
+            assert_eq!(shown(front), shown(finest));
+        } else if level > 0 {
+            // Every point is one of the finest, but for chips, which waves of an edge shape at each level alike.
+            let grid = FaceGrid::new(level);
+            let own = aged.grid.points_of(&grid);
+            for f in mesh.topology.live_faces() {
+                for (i, &of_finest) in own.iter().enumerate() {
+                    let place = front.positions[f.index() * own.len() + i];
+                    let fine = finest.positions[f.index() * aged.grid.points().len() + of_finest as usize];
+                    let gap = Vec3::from_array(place).distance(Vec3::from_array(fine));
+                    assert!(gap < 0.02 * mesh.geometry.mean_edge, "{gap} at level {level}");
+                }
+            }
+        }
     }
 }
 

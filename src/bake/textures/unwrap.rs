@@ -118,7 +118,6 @@ impl Unwrapped {
             stains: pick(&part.stains, &self.sources),
             rest: pick(&part.rest, &self.sources),
             rest_normals: pick(&part.rest_normals, &self.sources),
-            keys: pick(&part.keys, &self.sources),
             indices: self.indices.clone(),
         }
     }

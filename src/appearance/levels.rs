@@ -1,0 +1,113 @@
+//! Keeps what a film is shown with at every level, so that levels can be changed while it ages.
+
+use std::sync::Arc;
+
+use super::{
+    FilmAppearance, Shown,
+    coarse::CoarseSurface,
+    corners::CornerAttributes,
+    detail::Detail,
+    face_slots::FaceSlots,
+    fine::{Base, FineSurface},
+};
+use crate::{
+    film::FilmMesh,
+    fracture::FilmForces,
+    remesh::BuiltFilm,
+    stain::StainFields,
+    surface::{BuildError, Surface},
+};
+
+/// The prop's own surface under a film, sampled as finely as [`Detail::level`] says, from which the film can be shown at
+/// that level and all below.
+///
+/// It is cheap to clone, and needs neither the prop nor the appearance that it came from, so a film can be prepared at
+/// another level in the background.
+///
+/// ```
+/// use bevy_coating::{
+///     appearance::{Detail, FilmAppearance}, remesh::sample, settings::CoatingSettings, sim::FilmState,
+/// };
+///
+/// let (piece, settings) = (sample::plate(200, 1)?, CoatingSettings::default());
+/// let film = FilmState::new(&piece.film, &settings, 0, 100).ok_or("an empty film")?;
+/// let detail = Detail { level: 2, ..Detail::default() };
+/// let fine = FilmAppearance::with_detail(
+///     &piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains, detail,
+/// )?;
+/// let coarse = fine.levels().appearance(1, &film.mesh, &film.forces, &film.stains);
+/// assert_eq!((fine.level(), coarse.level()), (2, 1));
+/// assert_eq!(coarse.front(0).map(|front| front.triangles().count()), Some(4 * 200));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct FilmLevels {
+    attributes: Arc<CornerAttributes>,
+    /// Surface at the points of the finest level; `None` if that is 0.
+    finest: Option<Arc<Base>>,
+    detail: Detail,
+    /// Length of the film's grain, in metres.
+    grain: f32,
+    pub(super) face_slots: FaceSlots,
+    pub(super) epoch: u32,
+}
+
+impl FilmLevels {
+    /// Samples `surface`.
+    pub(super) fn sample(
+        built: &BuiltFilm,
+        surface: &Surface,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        detail: Detail,
+    ) -> Result<Self, BuildError> {
+        let attributes = CornerAttributes::sample(built, surface, mesh);
+        let finest = match detail.level {
+            0 => None,
+            level => Some(Arc::new(Base::sample(built, surface, mesh, &attributes, level)?)),
+        };
+        let mut levels = Self::coarse(built, attributes, mesh, forces);
+        (levels.finest, levels.detail) = (finest, detail);
+        Ok(levels)
+    }
+
+    /// Returns level 0 alone.
+    pub(super) fn coarse(
+        built: &BuiltFilm,
+        attributes: CornerAttributes,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+    ) -> Self {
+        Self {
+            attributes: Arc::new(attributes),
+            finest: None,
+            detail: Detail::default(),
+            grain: forces.grain().map_or(mesh.geometry.mean_edge, |grain| grain.length),
+            face_slots: FaceSlots::new(built, mesh.topology.face_count()),
+            epoch: 0,
+        }
+    }
+
+    /// Returns the finest level.
+    pub fn finest(&self) -> u32 {
+        self.finest.as_ref().map_or(0, |base| base.grid.level())
+    }
+
+    /// Returns the appearance of the film in the state of `mesh`, `forces` and `stains` at `level`, or at the finest
+    /// that there is.
+    pub fn appearance(&self, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> FilmAppearance {
+        FilmAppearance::begin(self.clone(), level, mesh, forces, stains)
+    }
+
+    /// Returns the surface that shows a film at `level`, or at the finest that there is.
+    pub(super) fn surface(&self, level: u32, mesh: &FilmMesh) -> Shown {
+        match &self.finest {
+            Some(finest) if level > 0 => {
+                let base = if level < self.finest() { Arc::new(finest.coarser(level)) } else { finest.clone() };
+                let [chips, thickness] = [self.detail.chips, self.detail.thickness].map(|grains| grains * self.grain);
+                Shown::Fine(Box::new(FineSurface::new(mesh, base, &self.face_slots, chips, thickness)))
+            }
+            _ => Shown::Coarse(Box::new(CoarseSurface::new(mesh, self.attributes.clone(), &self.face_slots))),
+        }
+    }
+}

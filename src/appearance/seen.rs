@@ -1,0 +1,50 @@
+//! Keeps what an appearance last saw of its film, and finds what is different.
+
+use super::{changes::DisplayChanges, differences::Differences, frames::Frames, looks::Looks, moves::Moves};
+use crate::{film::FilmMesh, fracture::FilmForces, stain::StainFields};
+
+/// What was last seen of a film, and what has changed since.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seen {
+    pub differences: Differences,
+    pub moves: Moves,
+    pub frames: Frames,
+    pub looks: Looks,
+    /// Whether anything moved or turned.
+    pub moved: bool,
+}
+
+impl Seen {
+    /// Measures `mesh` at rest. The first [`follow`](Self::follow) finds that everything is new.
+    pub fn new(mesh: &FilmMesh) -> Self {
+        Self { frames: Frames::new(mesh), ..Self::default() }
+    }
+
+    /// Compares the film, which has undergone `changes`, with what was seen. With `whole`, what was seen is void.
+    pub fn follow(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        changes: DisplayChanges,
+        whole: bool,
+    ) {
+        let Self { differences, moves, frames, looks, moved } = self;
+        if whole || changes.topology || changes.exposure {
+            differences.look(mesh, forces, whole);
+        } else {
+            differences.clear();
+        }
+        *moved = false;
+        if changes.moved || changes.topology || changes.exposure || differences.whole {
+            let others = differences.vertices.iter().chain(&differences.separated);
+            *moved = moves.follow(mesh, differences.whole, others.copied());
+            if *moved {
+                frames.follow(mesh, moves, differences);
+            }
+        } else {
+            moves.clear();
+        }
+        looks.follow(mesh, stains, differences, changes.stains);
+    }
+}
