@@ -3,7 +3,7 @@
 //! Comparing with what was seen then is quicker than keeping books of every step, and cannot miss an edit.
 
 use crate::{
-    film::{FaceId, FilmMesh, HalfEdgeId, Topology, VertexId},
+    film::{FaceFate, FaceId, FilmMesh, HalfEdgeId, Topology, VertexId},
     fracture::FilmForces,
 };
 
@@ -17,8 +17,8 @@ pub(super) struct Differences {
     origins: Vec<VertexId>,
     /// Whether the edge of each half-edge was torn.
     torn: Vec<bool>,
-    /// Whether each face was part of the film.
-    live: Vec<bool>,
+    /// Fate of each face.
+    fates: Vec<FaceFate>,
     /// Whether each vertex was attached.
     attached: Vec<bool>,
     /// Whether nothing had been seen, or what was seen is void: then the lists are empty, and everything is different.
@@ -55,12 +55,13 @@ impl Differences {
     pub fn look(&mut self, mesh: &FilmMesh, forces: &FilmForces, whole: bool) {
         self.clear();
         let topology = &mesh.topology;
-        let came_back = topology.all_faces().any(|f| self.live.get(f.index()) == Some(&false) && topology.is_live(f));
-        if whole || came_back || self.live.len() != topology.face_count() {
+        let came_back = !(whole || self.fates.len() != topology.face_count()) && self.find_gone(topology);
+        if whole || came_back || self.fates.len() != topology.face_count() {
+            self.clear();
             self.whole = true;
             self.origins = topology.origins().to_vec();
             self.torn = topology.torn().to_vec();
-            self.live = topology.all_faces().map(|f| topology.is_live(f)).collect();
+            self.fates = topology.fates().to_vec();
             self.attached = topology.all_vertices().map(|v| forces.is_attached(v)).collect();
             self.marks = [Vec::new(), Vec::new()];
             return;
@@ -72,8 +73,20 @@ impl Differences {
         self.exposed.iter().for_each(|f| faces[f.index()] = false);
     }
 
+    /// Finds the faces that are gone, and returns whether any is there again.
+    fn find_gone(&mut self, topology: &Topology) -> bool {
+        let (mut came_back, gone) = (false, &mut self.gone);
+        each_difference(&mut self.fates, topology.fates(), |f, was, is| {
+            came_back |= is == FaceFate::Live;
+            if was == FaceFate::Live {
+                gone.push(FaceId::new(f));
+            }
+        });
+        came_back
+    }
+
     fn find_tears(&mut self, topology: &Topology) {
-        let Self { origins, torn, live, parted, tears, vertices, gone, marks: [marks, _], .. } = self;
+        let Self { origins, torn, parted, tears, vertices, marks: [marks, _], .. } = self;
         marks.resize(topology.vertex_count(), false);
         let mut mark = |v: VertexId| {
             if !std::mem::replace(&mut marks[v.index()], true) {
@@ -90,12 +103,6 @@ impl Differences {
             tears.push(h);
             mark(topology.origin(h));
         });
-        for f in topology.all_faces() {
-            if live[f.index()] && !topology.is_live(f) {
-                live[f.index()] = false;
-                gone.push(f);
-            }
-        }
     }
 
     fn find_exposed(&mut self, topology: &Topology, forces: &FilmForces) {

@@ -151,7 +151,7 @@ impl FilmAppearance {
 
     fn begin(levels: FilmLevels, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
         let (shown, level) = (levels.surface(level, mesh), level.min(levels.finest()));
-        let mut appearance = Self { levels, level, seen: Seen::new(mesh), shown, outdated: true };
+        let mut appearance = Self { levels, level, seen: Seen::default(), shown, outdated: true };
         let changes = DisplayChanges::everything_in(appearance.levels.epoch);
         appearance.update(mesh, forces, stains, changes);
         appearance

@@ -2,9 +2,9 @@
 
 use bevy_math::Vec3;
 
-use crate::film::{FaceId, FilmMesh, VertexId};
+use crate::film::{FilmMesh, VertexId};
 
-/// Vertices that moved, and the faces and vertices whose directions depend on them.
+/// Vertices that moved, and those whose directions depend on them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Moves {
     /// Positions at the last update.
@@ -13,16 +13,13 @@ pub(super) struct Moves {
     moved: Vec<bool>,
     /// Whether each vertex is in `vertices`.
     turned: Vec<bool>,
-    /// Faces with a corner that moved, in ascending order.
-    pub faces: Vec<FaceId>,
-    /// Corners of these faces, and vertices that count as moved: each once.
+    /// Corners of faces with a corner that moved, and vertices that count as moved: each once.
     pub vertices: Vec<VertexId>,
 }
 
 impl Moves {
     /// Forgets the moves of the last update.
     pub fn clear(&mut self) {
-        self.faces.clear();
         for v in self.vertices.drain(..) {
             self.turned[v.index()] = false;
         }
@@ -33,7 +30,7 @@ impl Moves {
     pub fn follow(&mut self, mesh: &FilmMesh, all: bool, others: impl Iterator<Item = VertexId>) -> bool {
         self.clear();
         let (topology, positions) = (&mesh.topology, &mesh.geometry.positions);
-        let Self { seen, moved, turned, faces, vertices } = self;
+        let Self { seen, moved, turned, vertices } = self;
         // What is new was nowhere.
         seen.resize(positions.len(), Vec3::NAN);
         turned.resize(positions.len(), false);
@@ -54,7 +51,6 @@ impl Moves {
                 let corners = topology.corners(f);
                 let [a, b, c] = corners.map(|v| moved[v.index()]);
                 if a | b | c {
-                    faces.push(f);
                     corners.iter().for_each(|&v| turn(v));
                 }
             }

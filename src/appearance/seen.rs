@@ -15,11 +15,6 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Measures `mesh` at rest. The first [`follow`](Self::follow) finds that everything is new.
-    pub fn new(mesh: &FilmMesh) -> Self {
-        Self { frames: Frames::new(mesh), ..Self::default() }
-    }
-
     /// Compares the film, which has undergone `changes`, with what was seen. With `whole`, what was seen is void.
     pub fn follow(
         &mut self,

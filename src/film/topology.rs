@@ -239,6 +239,12 @@ impl Topology {
         &self.torn
     }
 
+    /// Returns the fate of each face.
+    #[inline]
+    pub(crate) fn fates(&self) -> &[FaceFate] {
+        &self.fates
+    }
+
     /// Returns the vertex of the rest state that each vertex is, or is a duplicate of.
     #[inline]
     pub(crate) fn originals(&self) -> &[VertexId] {
