@@ -169,5 +169,5 @@ fn coating(options: &Options, wear: Wear) -> Coating {
         settings.adhesion.mean += 0.5;
         settings.deform.bend_limit *= 0.6;
     }
-    Coating { detail: Detail { level: options.level, ..Detail::default() }, ..Coating::new(settings) }
+    Coating { detail: options.scene.detail(options.level), ..Coating::new(settings) }
 }

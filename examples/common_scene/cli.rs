@@ -1,6 +1,6 @@
 //! What the command lines of all scenes have.
 
-use bevy_coating::settings::CoatingSettings;
+use bevy_coating::{appearance::Detail, settings::CoatingSettings};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -36,6 +36,13 @@ impl SceneArgs {
     /// Whether pictures are asked for, rather than a window.
     pub fn pictures(&self) -> bool {
         self.headless || self.animate.is_some()
+    }
+
+    /// How finely paint is shown: at `level` at most. Pictures do not wait for levels that follow the distance, so theirs
+    /// stay.
+    pub fn detail(&self, level: u32) -> Detail {
+        let detail = Detail { level, ..Detail::default() };
+        if self.pictures() { Detail { pixels: 0.0, ..detail } } else { detail }
     }
 
     /// Ages of the pictures, in order: those `given`, or the moving picture's, spread evenly.

@@ -26,6 +26,9 @@ pub struct Options {
     /// What cracks and curls are measured in; M changes it in the window.
     #[arg(long, value_enum, default_value_t = Measure::Grain)]
     pub rules: Measure,
+    /// How finely paint is shown: each triangle of a film by 4 to this power.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=4))]
+    pub level: u32,
     /// Grain, in metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.04, value_parser = parse_grain)]
     grain: f32,
@@ -68,7 +71,8 @@ impl Options {
             Measure::Paper => FilmResolution::Triangles(TRIANGLES),
         };
         let seed = self.scene.seed.wrapping_add(seed);
-        Coating::new(self.settings(measure)).with_resolution(resolution).with_seed(seed)
+        let coating = Coating::new(self.settings(measure)).with_resolution(resolution).with_seed(seed);
+        Coating { detail: self.scene.detail(self.level), ..coating }
     }
 
     pub fn settings(&self, measure: Measure) -> CoatingSettings {

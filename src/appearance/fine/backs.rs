@@ -1,8 +1,12 @@
 //! Builds the backs of fine flakes, one thickness of paint behind their fronts.
 
-use bevy_math::{Vec3, Vec3A};
-
-use super::{base::Base, fronts::FineFronts, outline::Outlines, rims::Rims, unit, vertex_frames::VertexFrames};
+use super::{
+    base::Base,
+    fronts::FineFronts,
+    lanes::{LANES, spread},
+    rims::Rims,
+    vertex_frames::VertexFrames,
+};
 use crate::{
     appearance::{
         blocks::Blocks,
@@ -26,43 +30,16 @@ pub(in crate::appearance) struct FineBacks {
     rims: Rims,
     /// Faces whose back or rims may be new.
     new: Vec<FaceId>,
+    /// Normals of the face that is being moved.
+    normals: Vec<[f32; 3]>,
 }
 
 /// The back of one face.
 pub(super) struct Backside<'a> {
     /// Thickness of the paint, against the normals of the film.
     pub depth: f32,
-    /// Barycentric coordinates of the points.
-    points: &'a [Vec3],
-    chipped: Option<&'a [([f32; 10], Vec3)]>,
-    /// Normals of the film at the corners.
-    normals: [Vec3A; 3],
-}
-
-impl<'a> Backside<'a> {
-    fn new(
-        mesh: &FilmMesh,
-        face_slots: &FaceSlots,
-        base: &'a Base,
-        outlines: &'a Outlines,
-        frames: &VertexFrames,
-        thickness: f32,
-        f: FaceId,
-    ) -> Self {
-        Self {
-            depth: if face_slots.is_flipped(f) { -thickness } else { thickness },
-            points: base.grid.points(),
-            chipped: outlines.chipped(f, base.points),
-            normals: mesh.topology.corners(f).map(|v| frames.normals[v.index()]),
-        }
-    }
-
-    /// Returns the normal of the film at a point, outwards as the prop has it.
-    pub fn normal(&self, point: usize) -> Vec3A {
-        let b = self.chipped.map_or(self.points[point], |chipped| chipped[point].1);
-        let [p, q, r] = self.normals;
-        unit(p * b.x + q * b.y + r * b.z, p)
-    }
+    /// Unit normal of the film at each point of the face, outwards as the prop has it.
+    pub normals: &'a [[f32; 3]],
 }
 
 impl FineBacks {
@@ -74,6 +51,7 @@ impl FineBacks {
             blocks: Blocks::new(grid.points().len(), grid.triangles().len()),
             rims: Rims::new(grid),
             new: Vec::new(),
+            normals: vec![[0.0; 3]; grid.points().len()],
         }
     }
 
@@ -109,12 +87,16 @@ impl FineBacks {
         for &f in self.new.iter().chain(&fronts.bent) {
             let slot = face_slots.slot(f);
             let Some(block) = self.blocks.get(f.index()) else { continue };
-            let side = Backside::new(mesh, face_slots, base, &fronts.outlines, frames, thickness, f);
+            let corners = mesh.topology.corners(f).map(|v| frames.normals[v.index()].into());
+            for (places, normals) in fronts.outlines.places(base, f).iter().zip(self.normals.chunks_mut(LANES)) {
+                spread(&places.mean(corners), normals);
+            }
+            let depth = if face_slots.is_flipped(f) { -thickness } else { thickness };
+            let side = Backside { depth, normals: &self.normals };
             let (part, changes, front) = (&mut self.parts[slot], &mut self.changes[slot], &fronts.parts[slot]);
             let vertices = self.blocks.vertices_of(block);
-            for ((point, from), to) in fronts.vertices_of(base, f).enumerate().zip(vertices.clone()) {
-                let position = Vec3A::from_array(front.positions[from]) - side.normal(point) * side.depth;
-                part.positions[to] = position.to_array();
+            for ((from, to), normal) in fronts.vertices_of(base, f).zip(vertices.clone()).zip(side.normals) {
+                part.positions[to] = std::array::from_fn(|i| front.positions[from][i] - normal[i] * depth);
                 part.normals[to] = front.normals[from].map(|x| -x);
             }
             changes.moved.add(vertices);
@@ -129,7 +111,7 @@ impl FineBacks {
 
     /// Copies the attributes of new vertices and of chipped faces from their fronts, and the stains that changed.
     fn copy(&mut self, face_slots: &FaceSlots, base: &Base, fronts: &FineFronts) {
-        let Self { parts, changes, blocks, rims, new } = self;
+        let Self { parts, changes, blocks, rims, new, .. } = self;
         let renewed = new.iter().chain(&fronts.chipped).map(|&f| (f, true));
         for (f, renewed) in renewed.chain(fronts.stained.iter().map(|&f| (f, false))) {
             let Some(block) = blocks.get(f.index()) else { continue };

@@ -2,7 +2,7 @@
 
 use bevy_math::{Vec2, Vec3, Vec4};
 
-use super::patch::weights;
+use super::lanes::Places;
 use crate::{
     appearance::{
         corners::{CornerAttributes, sample},
@@ -17,8 +17,8 @@ use crate::{
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Base {
     pub grid: FaceGrid,
-    /// Weights of a patch's control points at each point of the grid.
-    pub weights: Vec<[f32; 10]>,
+    /// Where the points of the grid lie on their face.
+    pub(super) places: Vec<Places>,
     /// Number of points of a face.
     pub points: usize,
     pub positions: Vec<Vec3>,
@@ -71,7 +71,7 @@ impl Base {
             colors: pick(colors, indices()),
         };
         Self {
-            weights: own.iter().map(|&i| self.weights[i as usize]).collect(),
+            places: Places::all(grid.points()),
             points: own.len(),
             positions: pick(&self.positions, indices()),
             attributes,
@@ -108,8 +108,7 @@ impl Base {
             tangents,
             colors: sample(&surface.colors, &sites.sites),
         };
-        let weights = grid.points().iter().map(|&b| weights(b)).collect();
-        Self { points: grid.points().len(), weights, positions, attributes, grid }
+        Self { points: grid.points().len(), places: Places::all(grid.points()), positions, attributes, grid }
     }
 
     /// Returns the index of the point `i` of the face `f`.

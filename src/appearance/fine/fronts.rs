@@ -1,13 +1,11 @@
 //! Builds the fine fronts: the grids of all faces, bent with the film and chipped where it has torn.
 
-use bevy_math::{Vec3, Vec3A};
-
 use super::{
     base::{Base, Place},
+    lanes::{AtRest, Bend, LANES, collect, spread},
     mean_stains,
     outline::Outlines,
     patch::Patch,
-    unit,
     vertex_frames::VertexFrames,
 };
 use crate::{
@@ -158,28 +156,30 @@ impl FineFronts {
                 }
                 continue;
             }
-            let chipped = outlines.chipped(f, base.points);
-            let [p, q, r] = shape.corners.map(|v| frames.rotations[v]);
-            let rest_normals = shape.corners.map(|v| Vec3A::from(mesh.geometry.rest_normals[v]));
-            for i in 0..base.points {
-                let (weights, b) =
-                    chipped.map_or((&base.weights[i], base.grid.points()[i]), |points| (&points[i].0, points[i].1));
-                let to = first + i;
-                let rotation = p * b.x + q * b.y + r * b.z;
-                let rest = Vec3A::from(Vec3::from_array(part.rest[to]));
-                let bent = shape.patch.at(weights) + rotation * outlines.offsets[base.index(f, i)];
-                let up = rest_normals[0] * b.x + rest_normals[1] * b.y + rest_normals[2] * b.z;
-                let position = lifted(bent, rest, up);
-                part.positions[to] = position.to_array();
-                let rest_normal = Vec3A::from(Vec3::from_array(part.rest_normals[to]));
-                let normal = unit(rotation * rest_normal, rest_normal);
-                part.normals[to] = normal.to_array();
-                if let Some(tangent) = part.tangents.get_mut(to) {
-                    // Tangents at rest are those of the base: chips shift them too little to be seen.
-                    let [x, y, z, w] = base.attributes.tangents[base.index(f, i)].to_array();
-                    let turned = rotation * Vec3A::new(x, y, z);
-                    let flat = unit(turned - normal * turned.dot(normal), Vec3A::new(x, y, z));
-                    *tangent = [flat.x, flat.y, flat.z, w];
+            let bend = Bend {
+                patch: shape.patch,
+                rotations: shape.corners.map(|v| frames.rotations[v]),
+                rest_normals: shape.corners.map(|v| mesh.geometry.rest_normals[v]),
+            };
+            let all = outlines.places(base, f).iter().zip(outlines.offsets(base, f));
+            for (i, (places, offsets)) in all.enumerate() {
+                let from = first + i * LANES;
+                let to = (from + LANES).min(first + base.points);
+                let mut rest = AtRest {
+                    positions: collect(part.rest[from..to].iter().copied()),
+                    normals: collect(part.rest_normals[from..to].iter().copied()),
+                    ..AtRest::default()
+                };
+                // Tangents at rest are those of the base: chips shift them too little to be seen.
+                let own = base.index(f, i * LANES);
+                let tangents = base.attributes.tangents.get(own..own + to - from).unwrap_or_default();
+                rest.tangents = collect(tangents.iter().map(|t| [t.x, t.y, t.z]));
+                let bent = bend.of(places, &rest, offsets);
+                spread(&bent.positions, &mut part.positions[from..to]);
+                spread(&bent.normals, &mut part.normals[from..to]);
+                for (lane, t) in tangents.iter().enumerate() {
+                    let [x, y, z] = bent.tangents.map(|lanes| lanes[lane]);
+                    part.tangents[from + lane] = [x, y, z, t.w];
                 }
             }
         }
@@ -201,11 +201,11 @@ impl FineFronts {
         }
         for &f in stained.iter() {
             let corners = topology.corners(f).map(|v| look.stains[v.index()]);
-            let places = outlines.chipped(f, base.points);
+            let places = outlines.places(base, f);
             let (slot, first) = (face_slots.slot(f), first[f.index()] as usize);
             let to = &mut parts[slot].stains[first..first + base.points];
-            for (i, (to, &b)) in to.iter_mut().zip(base.grid.points()).enumerate() {
-                *to = mean_stains(&corners, places.map_or(b, |places| places[i].1));
+            for (i, to) in to.iter_mut().enumerate() {
+                *to = mean_stains(&corners, places[i / LANES].at(i % LANES));
             }
             changes[slot].stained.add(first..first + base.points);
         }
@@ -222,14 +222,6 @@ fn shape(mesh: &FilmMesh, frames: &VertexFrames, f: FaceId) -> Shape {
         Patch::new(corners.map(|v| mesh.geometry.positions[v].into()), corners.map(|v| frames.normals[v]))
     };
     Shape { patch, corners, still }
-}
-
-/// Returns `position`, lifted along `up` to the height of `rest` if it lies below: patches between film that has moved
-/// and film that has not may dip through the metal.
-pub(super) fn lifted(position: Vec3A, rest: Vec3A, up: Vec3A) -> Vec3A {
-    // Around a thin pole the normals that `up` is a mean of may nearly cancel out, so only its direction counts.
-    let up = unit(up, Vec3A::ZERO);
-    position - up * (position - rest).dot(up).min(0.0)
 }
 
 /// Appends a range of values.

@@ -9,6 +9,7 @@ mod backs;
 mod base;
 mod chips;
 mod fronts;
+mod lanes;
 mod metal;
 mod outline;
 mod patch;

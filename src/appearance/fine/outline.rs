@@ -5,6 +5,7 @@ use bevy_math::{Vec3, Vec3A};
 use super::{
     base::{Base, Place},
     chips::Chip,
+    lanes::{LANES, Lanes, Places, collect},
     patch::{Patch, weights},
 };
 use crate::film::{FaceId, FilmMesh, HalfEdgeId};
@@ -21,23 +22,25 @@ pub(super) struct Outlines {
     torn: Vec<u8>,
     /// Block of `chipped` that a face has, or [`STRAIGHT`].
     block: Vec<u32>,
-    /// Weights of the patch's control points at each point of a chipped face, and its barycentric coordinates.
-    chipped: Vec<([f32; 10], Vec3)>,
+    /// Where the points of chipped faces lie.
+    chipped: Vec<Places>,
     /// Blocks of `chipped` that no face has any more.
     free: Vec<u32>,
-    /// Offset of each point of each face from the patch at rest.
-    pub offsets: Vec<Vec3A>,
+    /// Offset of each point of each face from the patch at rest, eight in each entry.
+    offsets: Vec<[Lanes; 3]>,
 }
 
 impl Outlines {
     /// Returns the outlines of a film without cracks.
     pub fn new(mesh: &FilmMesh, base: &Base, amplitude: f32) -> Self {
         let faces = mesh.topology.face_count();
-        let mut offsets = Vec::with_capacity(base.positions.len());
+        let mut offsets = Vec::with_capacity(faces * base.places.len());
         for f in mesh.topology.all_faces() {
             let patch = rest_patch(mesh, f);
-            let at_rest = |i: usize| base.positions.get(base.index(f, i)).copied().unwrap_or_default();
-            offsets.extend(base.weights.iter().enumerate().map(|(i, w)| Vec3A::from(at_rest(i)) - patch.at(w)));
+            let points = base.positions[base.index(f, 0)..base.index(f, base.points)].chunks(LANES);
+            let offset = |(&at, &b): (&Vec3, &Vec3)| (Vec3A::from(at) - patch.at(&weights(b))).to_array();
+            let all = points.zip(base.grid.points().chunks(LANES));
+            offsets.extend(all.map(|(points, b)| collect(points.iter().zip(b).map(offset))));
         }
         Self { amplitude, torn: vec![0; faces], block: vec![STRAIGHT; faces], offsets, ..Self::default() }
     }
@@ -61,11 +64,11 @@ impl Outlines {
         }
         if block == STRAIGHT {
             self.block[f.index()] = self.free.pop().unwrap_or_else(|| {
-                self.chipped.extend(std::iter::repeat_n(([0.0; 10], Vec3::ZERO), base.points));
-                (self.chipped.len() / base.points - 1) as u32
+                self.chipped.extend_from_slice(&base.places);
+                (self.chipped.len() / base.places.len() - 1) as u32
             });
         }
-        let first = self.block[f.index()] as usize * base.points;
+        let first = self.block[f.index()] as usize * base.places.len();
         let patch = rest_patch(mesh, f);
         for (i, &b) in base.grid.points().iter().enumerate() {
             let shifted = b + shift(&chips, b);
@@ -73,9 +76,8 @@ impl Outlines {
             if let Some(on_edge) = self.place_on_crack(mesh, base, f, &chips, b) {
                 place.position = on_edge;
             }
-            let weights = weights(shifted);
-            self.offsets[base.index(f, i)] = Vec3A::from(place.position) - patch.at(&weights);
-            self.chipped[first + i] = (weights, shifted);
+            self.set_offset(base, f, i, Vec3A::from(place.position) - patch.at(&weights(shifted)));
+            self.chipped[first + i / LANES].set(i % LANES, shifted);
             put(i, place);
         }
     }
@@ -84,19 +86,31 @@ impl Outlines {
     fn straighten(&mut self, mesh: &FilmMesh, base: &Base, f: FaceId, mut put: impl FnMut(usize, Place)) {
         self.free.push(std::mem::replace(&mut self.block[f.index()], STRAIGHT));
         let patch = rest_patch(mesh, f);
-        for (i, weights) in base.weights.iter().enumerate() {
+        for (i, &b) in base.grid.points().iter().enumerate() {
             let place = base.of(f, i);
-            self.offsets[base.index(f, i)] = Vec3A::from(place.position) - patch.at(weights);
+            self.set_offset(base, f, i, Vec3A::from(place.position) - patch.at(&weights(b)));
             put(i, place);
         }
     }
 
-    /// Returns the weights and barycentric coordinates of the points of `f` if its outline is chipped.
+    fn set_offset(&mut self, base: &Base, f: FaceId, i: usize, offset: Vec3A) {
+        let lanes = &mut self.offsets[f.index() * base.places.len() + i / LANES];
+        for (lanes, x) in lanes.iter_mut().zip(offset.to_array()) {
+            lanes[i % LANES] = x;
+        }
+    }
+
+    /// Returns where the points of `f` lie on it.
     #[inline]
-    pub fn chipped(&self, f: FaceId, points: usize) -> Option<&[([f32; 10], Vec3)]> {
-        let block = self.block[f.index()];
-        let first = block as usize * points;
-        if block == STRAIGHT { None } else { self.chipped.get(first..first + points) }
+    pub fn places<'a>(&'a self, base: &'a Base, f: FaceId) -> &'a [Places] {
+        let (block, count) = (self.block[f.index()], base.places.len());
+        if block == STRAIGHT { &base.places } else { &self.chipped[block as usize * count..][..count] }
+    }
+
+    /// Returns the offsets of the points of `f` from the patch at rest.
+    #[inline]
+    pub fn offsets(&self, base: &Base, f: FaceId) -> &[[Lanes; 3]] {
+        &self.offsets[f.index() * base.places.len()..][..base.places.len()]
     }
 
     fn chips(&self, mesh: &FilmMesh, f: FaceId) -> [Option<Chip>; 3] {

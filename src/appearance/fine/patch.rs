@@ -24,6 +24,11 @@ impl Patch {
         Self([a, b, c, sides[0], sides[1], sides[2], sides[3], sides[4], sides[5], centre])
     }
 
+    /// Returns the control points, to which [`weights`] belong.
+    pub fn control_points(&self) -> [Vec3A; 10] {
+        self.0
+    }
+
     /// Returns the point with the weights of [`weights`].
     #[inline]
     pub fn at(&self, weights: &[f32; 10]) -> Vec3A {

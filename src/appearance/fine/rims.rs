@@ -106,7 +106,7 @@ impl Rims {
         let place = |i: usize| Vec3A::from_array(front.positions[first + edge[i] as usize]);
         for (i, &point) in edge.iter().enumerate() {
             let (before, after) = (i.saturating_sub(1), (i + 1).min(edge.len() - 1));
-            let normal = side.normal(point as usize);
+            let normal = Vec3A::from_array(side.normals[point as usize]);
             let aside = unit((place(after) - place(before)).cross(normal), normal);
             let vertex = first + point as usize;
             let shading = Vec3A::from_array(front.normals[vertex]);

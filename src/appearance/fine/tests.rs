@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use bevy_math::{Vec3, Vec3A};
+use bevy_math::Vec3;
 
-use super::{chips::Chip, fronts::lifted};
+use super::chips::Chip;
 use crate::{
     appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, tests::shown},
     film::{FaceGrid, FilmMesh, HalfEdgeId},
@@ -210,17 +210,6 @@ fn other_levels_show_the_same_film() {
             }
         }
     }
-}
-
-#[test]
-fn lifting_brings_nothing_further_from_the_surface() {
-    let (rest, below) = (Vec3A::new(1.0, 2.0, 3.0), Vec3A::new(1.3, 1.5, 2.9));
-    for up in [Vec3A::Y, Vec3A::Y * 1e-4, Vec3A::new(0.6, 0.8, 0.0) * 1e-3, Vec3A::ZERO, -Vec3A::Y] {
-        let found = lifted(below, rest, up);
-        assert!((found - rest).dot(up) >= -1e-6 * up.length(), "it lies above");
-        assert!(found.distance(rest) <= below.distance(rest), "{up}: {found}");
-    }
-    assert_eq!(lifted(below, rest, -Vec3A::Y), below, "what lies above stays");
 }
 
 #[test]
