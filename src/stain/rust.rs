@@ -193,8 +193,8 @@ impl Pace<'_> {
         self.dt * self.rust.emission * length * (1.0 + self.moisture.emission * moisture)
     }
 
-    /// Solves vertex `i` of `layer`, which gives off the amount `emitted`: updates its wet rust and its stain. `rate` is
-    /// that of its way.
+    /// Solves vertex `i` of `layer`, which gives off the amount `emitted`: updates its wet rust and its stain. `rate`
+    /// is that of its way.
     #[inline]
     fn solve(&self, layer: &mut StainLayer, i: usize, area: f32, emitted: f32, rate: f32) -> Solved {
         let (was_wet, stain) = (&mut layer.wet[i], &mut layer.stained[i]);
