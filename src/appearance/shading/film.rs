@@ -11,7 +11,7 @@ use super::{
 };
 
 /// Softness of the edges of threads, as a share of the noise's range.
-const THREAD_EDGE: f32 = 0.16;
+const THREAD_EDGE: f32 = 0.18;
 /// Mean of the crust over all places.
 const MEAN_CRUST: f32 = 0.225;
 /// Linear colour that a channel counts as at least, where rust is mixed by ratio.
@@ -175,8 +175,8 @@ impl FilmShading {
     /// [`FilmShading::blotches`] at the same place.
     fn threads(&self, s: &StainSample, p: &StainPattern, blotches: Grain) -> Grain {
         let width = self.stains.streak_width;
-        let octaves = [(width * 2.4, 0.45), (width * 0.9, 0.45), (width * 0.32, 0.3)];
-        let aside = Vec3::splat(0.12 * width * (blotches.value - 0.5));
+        let octaves = [(width * 3.2, 0.45), (width * 1.1, 0.45), (width * 0.4, 0.2)];
+        let aside = Vec3::splat(0.14 * width * (blotches.value - 0.5));
         p.streak(s.rest + aside, s.normal, octaves, 2.5 * self.stains.streak_stretch)
     }
 

@@ -69,7 +69,7 @@ pub struct StainShading {
     /// Perceptual roughness of rust: 0.089 to 1, default 0.9.
     pub rust_roughness: f32,
     /// Typical width of the streaks of washed dust and of the threads in which rust runs off, in metres: above 0,
-    /// default 0.004. The widest are about 2.5 times as wide, the finest less than half.
+    /// default 0.004. The widest are about 3 times as wide, the finest less than half.
     pub streak_width: f32,
     /// Length of a streak, as a multiple of its width: 1 or more, default 22. Threads of run-off keep their width for
     /// 2.5 times as long; they end where the rust does.

@@ -53,7 +53,7 @@ struct StainSample {
     footprint: f32,
 }
 
-const THREAD_EDGE: f32 = 0.16;
+const THREAD_EDGE: f32 = 0.18;
 const MEAN_CRUST: f32 = 0.225;
 const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
@@ -123,9 +123,9 @@ fn rusted(u: StainUniform, base: SurfaceShading, color: vec3<f32>, covered: f32)
 
 // Pattern of the threads in which rust runs off.
 fn threads(u: StainUniform, s: StainSample, blotch: Grain) -> Grain {
-    let octaves = Octaves(u.streak_width * vec3<f32>(2.4, 0.9, 0.32), vec3<f32>(0.45, 0.45, 0.3));
+    let octaves = Octaves(u.streak_width * vec3<f32>(3.2, 1.1, 0.4), vec3<f32>(0.45, 0.45, 0.2));
     var aside = s;
-    aside.rest += vec3<f32>(0.12 * u.streak_width * (blotch.value - 0.5));
+    aside.rest += vec3<f32>(0.14 * u.streak_width * (blotch.value - 0.5));
     return streak_grain(u, aside, octaves, 2.5 * u.streak_stretch);
 }
 
