@@ -376,3 +376,27 @@ impl Fan<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_neighbour_on_both_sides_of_a_crack_has_no_place_of_its_own() {
+        let target = |v| Target::film(VertexId(v));
+        let mut way = Outflow::NOTHING;
+        way.add(target(5), 0, 0.5);
+        way.add(target(6), 1, 0.25);
+        let mut both = way;
+        both.add(target(5), 2, 0.25);
+        // The neighbours go by other names now, and what was one has been split.
+        let ring: Ring = [7, 8, 9].map(|v| (target(v), Vec3::X)).to_vec();
+        for way in [&mut way, &mut both] {
+            way.mark_renamed();
+            assert!(way.is_stale());
+        }
+        assert!(way.rename(&ring) && !way.is_stale());
+        assert!(way.ways().eq([(target(7), 0.5), (target(8), 0.25)]));
+        assert!(!both.rename(&ring), "nobody knows how much goes to either side");
+    }
+}
