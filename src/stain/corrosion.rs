@@ -15,14 +15,20 @@ pub(super) fn corrode(stains: &mut StainFields, settings: &CoatingSettings, dt: 
     if pace <= 0.0 {
         return;
     }
-    // Dry metal has only three degrees of openness, so the exponential is often the same as before.
-    let (mut known, mut left) = (f32::NAN, 1.0);
+    // Dry metal has only three degrees of openness, so the exponential is mostly one of the last three.
+    let (mut known, mut oldest) = ([[f32::NAN, 1.0]; 3], 0);
     for &v in &stains.open {
         let v = v as usize;
         let rate = pace * stains.openness[v] * (1.0 + settings.moisture.emission * stains.metal.moisture[v]);
-        if rate != known {
-            (known, left) = (rate, ops::exp(-rate));
-        }
+        let left = match known.iter().find(|known| known[0] == rate) {
+            Some(&[_, left]) => left,
+            None => {
+                let left = ops::exp(-rate);
+                known[oldest] = [rate, left];
+                oldest = (oldest + 1) % known.len();
+                left
+            }
+        };
         stains.corrosion[v] = 1.0 - (1.0 - stains.corrosion[v]) * left;
     }
 }

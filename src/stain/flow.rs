@@ -11,6 +11,21 @@ use crate::film::{FilmMesh, VertexId, words::Words};
 /// Change of the pull, a vector, below which the ways are kept.
 const SAME_PULL: f32 = 1e-3;
 
+/// Wakes the places that run-off reaches, while a way is being read.
+pub(super) struct Waker<'a> {
+    ranks: &'a [u32],
+    awake: &'a mut [u64],
+}
+
+impl Waker<'_> {
+    /// Notes that there may be run-off at the place of film vertex `v`.
+    #[inline]
+    pub fn wake(&mut self, v: VertexId) {
+        let rank = self.ranks[v.index()];
+        self.awake[rank as usize / 64] |= 1 << (rank % 64);
+    }
+}
+
 /// Ways of run-off on one film and its metal. The way from a vertex is computed when it is first needed and kept until
 /// connectivity there or the pull changes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,10 +83,19 @@ impl Flow {
     pub fn mark_stale(&mut self, duplicates: &Duplicates, original: VertexId) {
         for v in duplicates.of(original) {
             let slot = self.slot(v);
-            self.film[slot].rate = Outflow::STALE.rate;
+            self.film[slot].mark_stale();
         }
-        self.metal[self.ranks[original.index()] as usize].rate = Outflow::STALE.rate;
+        self.metal[self.ranks[original.index()] as usize].mark_stale();
         self.lowest[original.index()] = VertexId::NONE;
+    }
+
+    /// Marks the targets of the ways from `original` as out of date, because connectivity has changed at a neighbour.
+    pub fn mark_renamed(&mut self, duplicates: &Duplicates, original: VertexId) {
+        for v in duplicates.of(original) {
+            let slot = self.slot(v);
+            self.film[slot].mark_renamed();
+        }
+        self.metal[self.ranks[original.index()] as usize].mark_renamed();
     }
 
     /// Marks all ways as out of date if the pull, the spread or the share that drops into cracks has changed. Sorts the
@@ -115,8 +139,7 @@ impl Flow {
 
     /// Notes that there may be run-off at the place of film vertex `v`.
     pub fn wake(&mut self, v: VertexId) {
-        let rank = self.ranks[v.index()];
-        self.awake[rank as usize / 64] |= 1 << (rank % 64);
+        Waker { ranks: &self.ranks, awake: &mut self.awake }.wake(v);
     }
 
     /// Notes that there is no run-off at `original` any more.
@@ -168,24 +191,45 @@ impl Flow {
         duplicates.lowest_known(mesh, original, self.pull, &mut self.lowest)
     }
 
-    /// Returns the way from film vertex `v`, which is `original` or a duplicate of it.
-    pub fn film_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId, v: VertexId) -> Outflow {
+    /// Returns the way from film vertex `v`, which is `original` or a duplicate of it, and what wakes its targets.
+    #[inline]
+    pub fn film_way(
+        &mut self,
+        mesh: &FilmMesh,
+        duplicates: &Duplicates,
+        original: VertexId,
+        v: VertexId,
+    ) -> (&Outflow, Waker<'_>) {
         let slot = self.slot(v);
-        if self.film[slot].is_stale() {
+        let Self { film, lowest, ring, ranks, awake, .. } = self;
+        let outflow = &mut film[slot];
+        if outflow.is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.film[slot] = Outflow::of_film(mesh, duplicates, &mut self.lowest, original, v, way, &mut self.ring);
+            outflow.find_on_film(mesh, duplicates, lowest, original, v, way, ring);
         }
-        self.film[slot]
+        (outflow, Waker { ranks, awake })
     }
 
-    /// Returns the way from the metal under `original`.
-    pub fn metal_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> Outflow {
-        let rank = self.ranks[original.index()] as usize;
-        if self.metal[rank].is_stale() {
+    /// Returns the way from the metal under `original`, and what wakes its targets.
+    #[inline]
+    pub fn metal_way(&mut self, mesh: &FilmMesh, duplicates: &Duplicates, original: VertexId) -> (&Outflow, Waker<'_>) {
+        let Self { metal, lowest, ring, ranks, awake, .. } = self;
+        let outflow = &mut metal[ranks[original.index()] as usize];
+        if outflow.is_stale() {
             let way = (self.pull, self.spread, self.into_cracks);
-            self.metal[rank] = Outflow::of_metal(mesh, duplicates, &mut self.lowest, original, way, &mut self.ring);
+            outflow.find_on_metal(mesh, duplicates, lowest, original, way, ring);
         }
-        self.metal[rank]
+        (outflow, Waker { ranks, awake })
+    }
+}
+
+#[cfg(test)]
+impl crate::stain::StainFields {
+    /// Forgets all ways, so that each is computed as a whole when it is next needed.
+    pub(crate) fn forget_ways(&mut self) {
+        self.flow.film.fill(Outflow::STALE);
+        self.flow.metal.fill(Outflow::STALE);
+        self.flow.lowest.fill(VertexId::NONE);
     }
 }
 

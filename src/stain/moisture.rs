@@ -163,7 +163,7 @@ fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
         while let Some(v) = next {
             next = stains.duplicates.after(v);
             if stains.film.moisture[v.index()] > DRY && stains.film.dust[v.index()] > 0.0 {
-                let outflow = stains.flow.film_way(mesh, &stains.duplicates, original, v);
+                let outflow = *stains.flow.film_way(mesh, &stains.duplicates, original, v).0;
                 let going = pace * stains.film.moisture[v.index()] * outflow.rate;
                 let dust = &mut stains.film.dust[v.index()];
                 let amount = *dust * going / (1.0 + going);
@@ -173,7 +173,7 @@ fn wash_dust(mesh: &FilmMesh, stains: &mut StainFields, pace: f32) {
         }
         let i = original.index();
         if stains.metal.moisture[i] > DRY && stains.metal.dust[i] > 0.0 {
-            let outflow = stains.flow.metal_way(mesh, &stains.duplicates, original);
+            let outflow = *stains.flow.metal_way(mesh, &stains.duplicates, original).0;
             let going = pace * stains.metal.moisture[i] * outflow.rate;
             let amount = stains.metal.dust[i] * going / (1.0 + going);
             stains.metal.dust[i] -= amount;

@@ -47,40 +47,99 @@ impl Target {
     }
 }
 
+/// Place of a target that is no neighbour: run-off leaves the ring there, over the lip of a crack.
+const OVER_LIP: u16 = u16::MAX;
+/// Place of a target that has no place of its own: it is at two places, or too far on in a huge ring.
+const NO_PLACE: u16 = u16::MAX - 1;
+
+/// How much of a way is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    /// Nothing: connectivity has changed at the vertex.
+    Nothing,
+    /// Shares and rate: connectivity has changed at a neighbour, which may go by another name now.
+    Shares,
+    /// Everything.
+    All,
+}
+
 /// Way of run-off from one vertex: the targets with the share of each, and how fast run-off leaves. If the shares add
 /// up to less than 1, the rest drips off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Outflow {
     targets: [Target; WAYS],
     shares: [f32; WAYS],
+    /// Place in the ring of each target that is a neighbour.
+    places: [u16; WAYS],
+    known: Known,
     /// Pull along the surface divided by the length of the way, per metre. Multiplied by the speed of run-off it is the
-    /// rate at which run-off leaves. It is 0 where nothing flows and negative where the way is not known yet.
+    /// rate at which run-off leaves. It is 0 where nothing flows.
     pub rate: f32,
 }
 
 impl Outflow {
     /// A way that must be computed first.
-    pub const STALE: Self = Self { targets: [Target::NONE; WAYS], shares: [0.0; WAYS], rate: -1.0 };
+    pub const STALE: Self = Self {
+        targets: [Target::NONE; WAYS],
+        shares: [0.0; WAYS],
+        places: [OVER_LIP; WAYS],
+        known: Known::Nothing,
+        rate: 0.0,
+    };
     /// A way along which nothing flows.
-    const NOTHING: Self = Self { rate: 0.0, ..Self::STALE };
+    const NOTHING: Self = Self { known: Known::All, ..Self::STALE };
 
-    /// Returns whether the way must be computed first.
+    /// Returns whether the way, or part of it, must be computed first.
+    #[inline]
     pub fn is_stale(&self) -> bool {
-        self.rate < 0.0
+        self.known != Known::All
+    }
+
+    /// Notes that connectivity has changed at the vertex.
+    pub fn mark_stale(&mut self) {
+        self.known = Known::Nothing;
+    }
+
+    /// Notes that connectivity has changed at a neighbour. The directions to the neighbours at rest are the same, and
+    /// with them shares and rate.
+    pub fn mark_renamed(&mut self) {
+        if self.known == Known::All {
+            self.known = Known::Shares;
+        }
+    }
+
+    /// Brings the targets that are neighbours up to date with `ring`. Returns false if the way must be computed as a
+    /// whole.
+    fn rename(&mut self, ring: &Ring) -> bool {
+        if self.known == Known::Nothing || self.places.contains(&NO_PLACE) {
+            return false;
+        }
+        for (target, &place) in self.targets.iter_mut().zip(&self.places) {
+            if place != OVER_LIP
+                && let Some(&(now, _)) = ring.get(usize::from(place))
+            {
+                *target = now;
+            }
+        }
+        self.known = Known::All;
+        true
     }
 
     /// Returns the targets of run-off, with the share of each.
+    #[inline]
     pub fn ways(&self) -> impl Iterator<Item = (Target, f32)> + '_ {
         self.targets.iter().copied().zip(self.shares).take_while(|&(target, _)| target != Target::NONE)
     }
 
-    /// Adds `share` to the share of `target`.
-    fn add(&mut self, target: Target, share: f32) {
+    /// Adds `share` to the share of `target`, which is the neighbour at `place` of the ring, or beyond the lip.
+    fn add(&mut self, target: Target, place: u16, share: f32) {
         if share <= 0.0 {
             return;
         }
-        for (known, sum) in self.targets.iter_mut().zip(&mut self.shares) {
+        for ((known, sum), at) in self.targets.iter_mut().zip(&mut self.shares).zip(&mut self.places) {
             if *known == target || *known == Target::NONE {
+                // The end of a crack is a neighbour on both sides of it, until it is split.
+                *at = if *known == Target::NONE || *at == place { place } else { NO_PLACE };
                 *known = target;
                 *sum += share;
                 return;
@@ -88,10 +147,11 @@ impl Outflow {
         }
     }
 
-    /// Computes the way from film vertex `v`, which is `original` or a duplicate of it. It leads over the faces of `v`;
-    /// at the upper lip of a crack it leads to the film below and into the crack. `lowest` holds the lowest film
-    /// vertices that are known.
-    pub fn of_film(
+    /// Computes what is not known of the way from film vertex `v`, which is `original` or a duplicate of it. It leads
+    /// over the faces of `v`; at the upper lip of a crack it leads to the film below and into the crack. `lowest` holds
+    /// the lowest film vertices that are known.
+    pub fn find_on_film(
+        &mut self,
         mesh: &FilmMesh,
         duplicates: &Duplicates,
         lowest: &mut [VertexId],
@@ -99,7 +159,7 @@ impl Outflow {
         v: VertexId,
         way: Way,
         ring: &mut Ring,
-    ) -> Self {
+    ) {
         let (pull, _, into_cracks) = way;
         let topology = &mesh.topology;
         let rest = &mesh.geometry.rest_positions;
@@ -114,38 +174,39 @@ impl Outflow {
         if let (false, Some(last)) = (closed, last) {
             ring.push(to(last));
         }
-        let (mut outflow, over) = Self::along(mesh, original, ring, closed, way);
-        if over <= 0.0 || outflow.rate == 0.0 {
-            return outflow;
+        if self.rename(ring) {
+            return;
+        }
+        let over;
+        (*self, over) = Self::along(mesh, original, ring, closed, way);
+        if over <= 0.0 || self.rate == 0.0 || closed {
+            return;
         }
         // At the prop's own border there is nothing on the other side to run to.
         let whole = duplicates.rest_fan(topology, original).count() == topology.fan(v).count();
-        if whole && !closed && !duplicates.is_inner(topology, original) {
-            return outflow;
-        }
-        if closed {
-            return outflow;
+        if whole && !duplicates.is_inner(topology, original) {
+            return;
         }
         match duplicates.lowest_known(mesh, original, pull, lowest) {
             Some(below) if below != v => {
-                outflow.add(Target::film(below), over * (1.0 - into_cracks));
-                outflow.add(Target::metal(original), over * into_cracks);
+                self.add(Target::film(below), OVER_LIP, over * (1.0 - into_cracks));
+                self.add(Target::metal(original), OVER_LIP, over * into_cracks);
             }
-            _ => outflow.add(Target::metal(original), over),
+            _ => self.add(Target::metal(original), OVER_LIP, over),
         }
-        outflow
     }
 
-    /// Computes the way from the metal under `original`. It leads over bare metal, and onto the film where film covers
-    /// the metal further down.
-    pub fn of_metal(
+    /// Computes what is not known of the way from the metal under `original`. It leads over bare metal, and onto the
+    /// film where film covers the metal further down.
+    pub fn find_on_metal(
+        &mut self,
         mesh: &FilmMesh,
         duplicates: &Duplicates,
         lowest: &mut [VertexId],
         original: VertexId,
         way: Way,
         ring: &mut Ring,
-    ) -> Self {
+    ) {
         let (pull, ..) = way;
         let topology = &mesh.topology;
         let rest = &mesh.geometry.rest_positions;
@@ -166,7 +227,9 @@ impl Outflow {
         if let (false, Some(last)) = (closed, last) {
             ring.push(to(last));
         }
-        Self::along(mesh, original, ring, closed, way).0
+        if !self.rename(ring) {
+            *self = Self::along(mesh, original, ring, closed, way).0;
+        }
     }
 
     /// Computes the way to the neighbours in `ring`. Also returns the share of run-off that leaves the ring over its
@@ -195,7 +258,7 @@ impl Outflow {
         let mut take = |split: Split, weight: f32, run: &mut f32| {
             for (i, share) in split.ways {
                 if let Some(&(target, way)) = ring.get(i) {
-                    outflow.add(target, share * weight);
+                    outflow.add(target, u16::try_from(i).map_or(NO_PLACE, |i| i.min(NO_PLACE)), share * weight);
                     *run += share * weight * way.dot(direction);
                 }
             }
@@ -269,13 +332,22 @@ impl Fan<'_> {
     fn sector(&self, direction: Vec3) -> Option<(usize, usize, f32, f32)> {
         let count = self.ring.len();
         let sectors = if self.closed { count } else { count.saturating_sub(1) };
-        (0..sectors).find_map(|i| {
+        let at = |k: usize| self.ring.get(k).map_or(Vec3::ZERO, |&(_, way)| way);
+        // The side of the direction on which a neighbour lies is a coordinate in the sector before it and, with the
+        // other sign, in the sector after it.
+        let side = |way: Vec3| direction.cross(way).dot(self.normal);
+        let mut u = at(0);
+        let mut b = -side(u);
+        for i in 0..sectors {
             let j = if i + 1 < count { i + 1 } else { 0 };
-            let [u, v] = [i, j].map(|k| self.ring.get(k).map_or(Vec3::ZERO, |&(_, way)| way));
-            let area = u.cross(v).dot(self.normal);
-            let (a, b) = (direction.cross(v).dot(self.normal), u.cross(direction).dot(self.normal));
-            (area > 0.0 && a >= 0.0 && b >= 0.0 && a + b > 0.0).then_some((i, j, a, b))
-        })
+            let v = at(j);
+            let a = side(v);
+            if a >= 0.0 && b >= 0.0 && a + b > 0.0 && u.cross(v).dot(self.normal) > 0.0 {
+                return Some((i, j, a, b));
+            }
+            (u, b) = (v, -a);
+        }
+        None
     }
 
     /// Returns the lower neighbour whose direction is nearest to `direction`, and the cosine between the two.
@@ -302,5 +374,29 @@ impl Fan<'_> {
             }
             None => Split::OVER,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_neighbour_on_both_sides_of_a_crack_has_no_place_of_its_own() {
+        let target = |v| Target::film(VertexId(v));
+        let mut way = Outflow::NOTHING;
+        way.add(target(5), 0, 0.5);
+        way.add(target(6), 1, 0.25);
+        let mut both = way;
+        both.add(target(5), 2, 0.25);
+        // The neighbours go by other names now, and what was one has been split.
+        let ring: Ring = [7, 8, 9].map(|v| (target(v), Vec3::X)).to_vec();
+        for way in [&mut way, &mut both] {
+            way.mark_renamed();
+            assert!(way.is_stale());
+        }
+        assert!(way.rename(&ring) && !way.is_stale());
+        assert!(way.ways().eq([(target(7), 0.5), (target(8), 0.25)]));
+        assert!(!both.rename(&ring), "nobody knows how much goes to either side");
     }
 }

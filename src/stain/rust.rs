@@ -3,9 +3,12 @@
 use bevy_math::Vec3;
 
 use super::{
+    catchments::Catchments,
     corrosion::corrode,
+    duplicates::Duplicates,
     environment::Environment,
-    fields::{RustSource, StainFields},
+    fields::{RustBudget, RustSource, StainFields},
+    flow::{Flow, Waker},
     layer::StainLayer,
     outflow::Outflow,
     slope::is_steep,
@@ -60,22 +63,19 @@ pub fn run_off(
     let RustSettings { spread, into_cracks, .. } = settings.rust;
     let spread = (spread * spread + environment.gusts * environment.gusts).sqrt();
     stains.flow.set_pull(mesh, environment.gravity + environment.wind, spread, into_cracks);
-    let mut pass = Pass {
-        mesh,
-        rust: &settings.rust,
-        moisture: &settings.moisture,
-        gravity: environment.gravity,
-        dt,
-        stained: 0.0,
-        rain: environment.rain.length(),
-    };
-    let mut next = stains.flow.next_awake(0);
+    let StainFields { film, metal, sources, budget, duplicates, catchments, flow, damp, .. } = stains;
+    let pace =
+        Pace { rust: &settings.rust, moisture: &settings.moisture, dt, rain: environment.rain.length(), damp: *damp };
+    let (gravity, stained) = (environment.gravity, 0.0);
+    let mut pass = Pass { mesh, pace, gravity, film, metal, sources, duplicates, catchments, flow, budget, stained };
+    let mut next = pass.flow.next_awake(0);
     while let Some((rank, original)) = next {
-        pass.visit(stains, original);
-        next = stains.flow.next_awake(rank + 1);
+        pass.visit(original);
+        next = pass.flow.next_awake(rank + 1);
     }
-    if pass.stained > 0.0 {
-        stains.streaks += stains.flow.pull.normalize_or_zero() * pass.stained;
+    let stained = pass.stained;
+    if stained > 0.0 {
+        stains.streaks += stains.flow.pull.normalize_or_zero() * stained;
     }
     if !(stains.open.is_empty() && stains.flow.is_asleep()) {
         stains.revise_if_seen();
@@ -85,122 +85,169 @@ pub fn run_off(
 /// One pass over all vertices with run-off, from the highest to the lowest.
 struct Pass<'a> {
     mesh: &'a FilmMesh,
-    rust: &'a RustSettings,
-    moisture: &'a MoistureSettings,
+    pace: Pace<'a>,
     gravity: Vec3,
-    dt: f32,
+    film: &'a mut StainLayer,
+    metal: &'a mut StainLayer,
+    sources: &'a [RustSource],
+    duplicates: &'a Duplicates,
+    catchments: &'a Catchments,
+    flow: &'a mut Flow,
+    budget: &'a mut RustBudget,
     /// Amount of rust that has stained in this pass.
     stained: f32,
-    /// Strength of the rain.
-    rain: f32,
 }
 
 impl Pass<'_> {
     /// Solves all vertices at one place: the upper lips of cracks first, then the lowest film, then the metal.
-    fn visit(&mut self, stains: &mut StainFields, original: VertexId) {
+    fn visit(&mut self, original: VertexId) {
         let mut busy = false;
-        if stains.duplicates.is_split(original) {
-            let lowest = stains.flow.lowest(self.mesh, &stains.duplicates, original);
+        if self.duplicates.is_split(original) {
+            let lowest = self.flow.lowest(self.mesh, self.duplicates, original);
             let mut next = Some(original);
             while let Some(v) = next {
-                next = stains.duplicates.after(v);
+                next = self.duplicates.after(v);
                 if Some(v) != lowest {
-                    busy |= self.film(stains, original, v);
+                    busy |= self.visit_film(original, v);
                 }
             }
             if let Some(lowest) = lowest {
-                busy |= self.film(stains, original, lowest);
+                busy |= self.visit_film(original, lowest);
             }
         } else {
-            busy |= self.film(stains, original, original);
+            busy |= self.visit_film(original, original);
         }
-        busy |= self.metal(stains, original);
+        busy |= self.visit_metal(original);
         if !busy {
-            stains.flow.sleep(original);
+            self.flow.sleep(original);
         }
     }
 
     /// Solves film vertex `v`. Returns whether there is run-off left for the next tick.
-    fn film(&mut self, stains: &mut StainFields, original: VertexId, v: VertexId) -> bool {
+    #[inline]
+    fn visit_film(&mut self, original: VertexId, v: VertexId) -> bool {
         let i = v.index();
-        let area = stains.film.areas[i];
+        let area = self.film.areas[i];
         if area <= 0.0 {
             // Rust on faces that are gone was counted when they fell.
-            stains.film.wet[i] = 0.0;
+            self.film.wet[i] = 0.0;
             return false;
         }
-        let source = stains.sources[i] == RustSource::Present;
-        if !source && stains.film.wet[i] == 0.0 {
+        let source = self.sources[i] == RustSource::Present;
+        if !source && self.film.wet[i] == 0.0 {
             return false;
         }
-        let outflow = stains.flow.film_way(self.mesh, &stains.duplicates, original, v);
         let mut emitted = 0.0;
         if source && is_steep(self.mesh, original, self.gravity) {
-            let damp = 1.0 + self.moisture.emission * stains.film.moisture[i];
-            emitted = self.dt * self.rust.emission * stains.catchments.length(original) * damp;
-            stains.budget.emitted += f64::from(emitted);
+            emitted = self.pace.emission(self.catchments.length(original), self.film.moisture[i]);
+            self.budget.emitted += f64::from(emitted);
         }
-        let leaving = self.solve(&mut stains.film, i, emitted, &outflow);
-        self.share(stains, leaving, &outflow);
-        source || stains.film.wet[i] > 0.0
+        let (way, waker) = self.flow.film_way(self.mesh, self.duplicates, original, v);
+        let solved = self.pace.solve(self.film, i, area, emitted, way.rate);
+        self.stained += solved.stained;
+        share(way, waker, solved.leaving, self.film, self.metal, self.budget);
+        source || solved.is_wet
     }
 
     /// Solves the metal under `original`. Returns whether there is run-off left for the next tick.
-    fn metal(&mut self, stains: &mut StainFields, original: VertexId) -> bool {
+    #[inline]
+    fn visit_metal(&mut self, original: VertexId) -> bool {
         let i = original.index();
-        if stains.metal.wet[i] == 0.0 || stains.metal.areas[i] <= 0.0 {
+        let area = self.metal.areas[i];
+        if self.metal.wet[i] == 0.0 || area <= 0.0 {
             return false;
         }
-        let outflow = stains.flow.metal_way(self.mesh, &stains.duplicates, original);
-        let leaving = self.solve(&mut stains.metal, i, 0.0, &outflow);
-        self.share(stains, leaving, &outflow);
-        stains.metal.wet[i] > 0.0
+        let (way, waker) = self.flow.metal_way(self.mesh, self.duplicates, original);
+        let solved = self.pace.solve(self.metal, i, area, 0.0, way.rate);
+        self.stained += solved.stained;
+        share(way, waker, solved.leaving, self.film, self.metal, self.budget);
+        solved.is_wet
+    }
+}
+
+/// Rates of one pass.
+#[derive(Clone, Copy)]
+struct Pace<'a> {
+    rust: &'a RustSettings,
+    moisture: &'a MoistureSettings,
+    dt: f32,
+    /// Strength of the rain.
+    rain: f32,
+    /// Whether anything is wet with water.
+    damp: bool,
+}
+
+/// What a vertex does with its wet rust in a pass.
+struct Solved {
+    /// Amount that leaves.
+    leaving: f32,
+    /// Amount that has dried on.
+    stained: f32,
+    /// Whether wet rust is left.
+    is_wet: bool,
+}
+
+impl Pace<'_> {
+    /// Returns the amount that a source gives off, to which `length` metres of crack drain.
+    fn emission(&self, length: f32, moisture: f32) -> f32 {
+        self.dt * self.rust.emission * length * (1.0 + self.moisture.emission * moisture)
     }
 
-    /// Solves vertex `i`, which gives off the amount `emitted`: updates its wet rust and its stain, and returns the
-    /// amount that leaves it.
-    fn solve(&mut self, layer: &mut StainLayer, i: usize, emitted: f32, outflow: &Outflow) -> f32 {
-        let (area, moisture) = (layer.areas[i], layer.moisture[i]);
+    /// Solves vertex `i` of `layer`, which gives off the amount `emitted`: updates its wet rust and its stain. `rate`
+    /// is that of its way.
+    #[inline]
+    fn solve(&self, layer: &mut StainLayer, i: usize, area: f32, emitted: f32, rate: f32) -> Solved {
+        let (was_wet, stain) = (&mut layer.wet[i], &mut layer.stained[i]);
+        let moisture = if self.damp { layer.moisture[i] } else { 0.0 };
         if self.rain > 0.0 && moisture > 0.0 && self.moisture.wash_rust > 0.0 {
             let loosening = self.dt * self.moisture.wash_rust * moisture * self.rain;
-            let loose = layer.stained[i] * loosening / (1.0 + loosening);
-            layer.stained[i] -= loose;
-            layer.wet[i] += loose;
+            let loose = *stain * loosening / (1.0 + loosening);
+            *stain -= loose;
+            *was_wet += loose;
         }
-        let going = self.dt * self.rust.speed * (1.0 + self.moisture.travel * moisture) * outflow.rate;
+        let going = self.dt * self.rust.speed * (1.0 + self.moisture.travel * moisture) * rate;
         let drying = self.dt * self.rust.deposit;
-        let wet = (layer.wet[i] + emitted / area) / (1.0 + going + drying);
-        let mut stain = drying * wet;
-        layer.wet[i] = wet;
-        if wet < DRY {
-            stain += wet;
-            layer.wet[i] = 0.0;
-        }
-        layer.stained[i] += stain;
-        self.stained += stain * area;
-        going * wet * area
+        let given = if emitted > 0.0 { emitted / area } else { 0.0 };
+        let wet = (*was_wet + given) / (1.0 + going + drying);
+        let is_wet = wet >= DRY;
+        let dried = if is_wet { drying * wet } else { drying * wet + wet };
+        *was_wet = if is_wet { wet } else { 0.0 };
+        *stain += dried;
+        Solved { leaving: going * wet * area, stained: dried * area, is_wet }
     }
+}
 
-    /// Brings the amount that leaves a vertex to its targets. The rest drips off.
-    fn share(&mut self, stains: &mut StainFields, amount: f32, outflow: &Outflow) {
-        if amount <= 0.0 {
-            return;
-        }
-        let mut left = amount;
-        for (target, share) in outflow.ways() {
-            let (v, metal) = target.vertex();
-            let layer = if metal { &mut stains.metal } else { &mut stains.film };
-            let area = layer.areas[v.index()];
-            if area > 0.0 {
-                let part = amount * share;
-                layer.wet[v.index()] += part / area;
-                left -= part;
-                stains.flow.wake(v);
+/// Brings the amount that leaves a vertex to its targets along `way`. The rest drips off.
+#[inline]
+fn share(
+    way: &Outflow,
+    mut waker: Waker,
+    amount: f32,
+    film: &mut StainLayer,
+    metal: &mut StainLayer,
+    budget: &mut RustBudget,
+) {
+    if amount <= 0.0 {
+        return;
+    }
+    let mut left = amount;
+    for (target, share) in way.ways() {
+        let (v, is_metal) = target.vertex();
+        let layer = if is_metal { &mut *metal } else { &mut *film };
+        let area = layer.areas[v.index()];
+        if area > 0.0 {
+            let part = amount * share;
+            let wet = &mut layer.wet[v.index()];
+            // A place where anything is wet is awake.
+            if *wet == 0.0 {
+                waker.wake(v);
             }
+            *wet += part / area;
+            left -= part;
         }
-        // Where the shares add up to 1 only rounding is left.
-        if left > amount * 1e-6 {
-            stains.budget.dripped += f64::from(left);
-        }
+    }
+    // Where the shares add up to 1 only rounding is left.
+    if left > amount * 1e-6 {
+        budget.dripped += f64::from(left);
     }
 }

@@ -37,7 +37,7 @@ impl Shown {
         self.film.note(film);
         self.metal.note(metal);
         self.corrosion.clear();
-        self.corrosion.extend(corrosion);
+        self.corrosion.extend_from_slice(corrosion);
         self.streaks = streaks.normalize_or_zero();
     }
 }
@@ -68,11 +68,13 @@ impl ShownLayer {
 
     fn note(&mut self, now: &StainLayer) {
         let Self { rust, dust, moisture } = self;
-        rust.clear();
-        rust.extend(now.wet.iter().zip(&now.stained).map(|(wet, stained)| seen_rust(wet + stained)));
+        rust.resize(now.wet.len(), 0.0);
+        for (rust, (wet, stained)) in rust.iter_mut().zip(now.wet.iter().zip(&now.stained)) {
+            *rust = seen_rust(wet + stained);
+        }
         for (shown, now) in [(dust, &now.dust), (moisture, &now.moisture)] {
             shown.clear();
-            shown.extend(now);
+            shown.extend_from_slice(now);
         }
     }
 }

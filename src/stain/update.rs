@@ -105,6 +105,6 @@ fn update_place(mesh: &FilmMesh, stains: &mut StainFields, original: VertexId) {
     for side in first.into_iter().chain(fan.map(HalfEdgeId::previous)) {
         let neighbour = topology.original(topology.origin(side));
         raise(neighbour, BESIDE);
-        flow.mark_stale(duplicates, neighbour);
+        flow.mark_renamed(duplicates, neighbour);
     }
 }

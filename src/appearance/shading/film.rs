@@ -10,8 +10,10 @@ use super::{
     surface::SurfaceShading,
 };
 
-/// Softness of the edges of streaks, as a share of the noise's range.
-const STREAK_EDGE: f32 = 0.26;
+/// Softness of the edges of threads, as a share of the noise's range.
+const THREAD_EDGE: f32 = 0.18;
+/// Mean of the crust over all places.
+const MEAN_CRUST: f32 = 0.225;
 /// Linear colour that a channel counts as at least, where rust is mixed by ratio.
 const DARKEST: f32 = 1e-3;
 /// Reflectance of rust, which scatters light.
@@ -69,7 +71,11 @@ impl FilmShading {
         self.film(shading, s, p)
     }
 
-    /// Adds run-off rust (VC 6.1). Its mean cover is 0.85 (1 - exp(-3 layers)), broken up into streaks.
+    /// Adds run-off rust (VC 6.1). Its mean cover is 0.85 (1 - exp(-3 layers)), gathered into threads.
+    ///
+    /// A few uneven threads run down the surface, each as far as there is rust enough for it, so that they thin out and
+    /// end one after the other. What they do not take lies between them as a translucent veil. Close to the source the
+    /// threads are dark brown and the veil has a crust; their edges, and where there is little rust, are orange.
     ///
     /// `hold` is the share of the run-off that stays visible on the surface: 1 on paint, less on rusty metal.
     pub(super) fn run_off(&self, base: SurfaceShading, s: &StainSample, p: &StainPattern, hold: f32) -> SurfaceShading {
@@ -78,14 +84,21 @@ impl FilmShading {
         }
         let amount = 1.0 - ops::exp(-3.0 * s.rust);
         let streak = self.streaks(s, p);
-        let hair = self.hairs(s, p);
         let blotches = p.grain(s.rest, self.blotches());
-        // Cores of streaks over a thin wash, both drawn out into hairs.
-        let core = streak.cover(amount, STREAK_EDGE);
-        let wash = amount * streak.around(1.0, 0.7) * blotches.around(1.0, 0.25);
-        let cover = (mix(wash, core, 0.5) * hair.around(1.0, 0.3)).clamp(0.0, 1.0) * self.stains.rust_strength * hold;
-        let depth = amount * streak.around(0.72, 0.42) * hair.around(1.0, 0.2);
-        let thick = smoothstep(0.3, 1.05, depth + 0.1 * blotches.around(0.0, 1.0));
+        let threads = self.threads(s, p, blotches);
+        // Share of the surface under threads, and how much they hide.
+        let share = amount * (0.22 + 0.3 * amount);
+        let strength = (0.5 + 0.5 * amount.sqrt()).min(20.0 * amount);
+        let thread = threads.cover(share, THREAD_EDGE) * strength;
+        // The veil hides what the threads leave of the amount, so that the mean is right.
+        let hidden = share * strength;
+        let even = (amount - hidden) / (1.0 - hidden);
+        let veil = even * threads.around(1.0, 0.3) * streak.around(1.0, 0.2) * blotches.around(1.0, 0.3);
+        let cover = mix(veil, 1.0, thread).clamp(0.0, 1.0) * self.stains.rust_strength * hold;
+        let inside = mix(0.75 * share, smoothstep(-0.12, 0.3, threads.value - 1.0 + share), threads.kept);
+        let crust = mix(MEAN_CRUST, smoothstep(0.6, 0.95, blotches.value), blotches.kept);
+        let depth = inside * streak.around(1.15, 0.35) * blotches.around(1.0, 0.3) + 0.4 * crust;
+        let thick = smoothstep(0.15, 1.1, amount * depth + 0.25 * smoothstep(0.6, 1.0, amount));
         let color = self.stains.rust_thin.lerp(self.stains.rust_thick, thick) * blotches.around(1.0, 0.16);
         self.rusted(base, color, cover)
     }
@@ -151,18 +164,20 @@ impl FilmShading {
         }
     }
 
-    /// Returns the pattern of streaks in which rust runs off.
+    /// Returns the pattern of streaks in which dust is washed, metal rusts and the veil of run-off varies.
     pub(super) fn streaks(&self, s: &StainSample, p: &StainPattern) -> Grain {
         let width = self.stains.streak_width;
         let octaves = [(width * 2.5, 0.5), (width, 0.42), (width * 0.42, 0.26)];
         p.streak(s.rest, s.normal, octaves, self.stains.streak_stretch)
     }
 
-    /// Returns the pattern of hairlines within the streaks.
-    fn hairs(&self, s: &StainSample, p: &StainPattern) -> Grain {
+    /// Returns the pattern of the threads in which rust runs off. Their edges waver with the `blotches`, the pattern of
+    /// [`FilmShading::blotches`] at the same place.
+    fn threads(&self, s: &StainSample, p: &StainPattern, blotches: Grain) -> Grain {
         let width = self.stains.streak_width;
-        let octaves = [(width * 0.6, 0.4), (width * 0.25, 0.4), (width * 0.1, 0.3)];
-        p.streak(s.rest, s.normal, octaves, 2.5 * self.stains.streak_stretch)
+        let octaves = [(width * 3.2, 0.45), (width * 1.1, 0.45), (width * 0.4, 0.2)];
+        let aside = Vec3::splat(0.14 * width * (blotches.value - 0.5));
+        p.streak(s.rest + aside, s.normal, octaves, 2.5 * self.stains.streak_stretch)
     }
 
     /// Returns the octaves of the blotches in run-off and in creeping rust.

@@ -8,7 +8,7 @@
 //!
 //! The fields say how much of each stain there is at a vertex. Noise, whose grains have sizes in metres, adds detail
 //! that is finer than the mesh: a stain covers the places where the noise is above a threshold that falls as the amount
-//! rises. So stains break up into streaks and patches instead of fading evenly, and the mean over an area is still the
+//! rises. So stains break up into threads and patches instead of fading evenly, and the mean over an area is still the
 //! amount of the field there.
 //!
 //! The functions here run on the CPU, for baked models and vertex colours. The shader of feature `render`

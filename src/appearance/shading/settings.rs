@@ -60,18 +60,19 @@ pub struct FilmShading {
     type_path = "bevy_coating::appearance::shading"
 )]
 pub struct StainShading {
-    /// Colour of thin run-off, at the ends of streaks. Default: orange, (0.33, 0.105, 0.024).
+    /// Colour of thin run-off: the veil, and the edges and ends of threads. Default: orange, (0.33, 0.105, 0.024).
     pub rust_thin: Vec3,
-    /// Colour of thick run-off, close to its source. Default: dark brown, (0.06, 0.02, 0.009).
+    /// Colour of thick run-off: threads close to their source. Default: dark brown, (0.06, 0.02, 0.009).
     pub rust_thick: Vec3,
     /// Share of the surface that a thick coat of run-off hides: 0 to 1, default 0.85 (VC 6.1).
     pub rust_strength: f32,
     /// Perceptual roughness of rust: 0.089 to 1, default 0.9.
     pub rust_roughness: f32,
-    /// Typical width of the streaks in run-off, in metres: above 0, default 0.004. The widest are 2.5 times as wide,
-    /// the finest less than half.
+    /// Typical width of the streaks of washed dust and of the threads in which rust runs off, in metres: above 0,
+    /// default 0.004. The widest are about 3 times as wide, the finest less than half.
     pub streak_width: f32,
-    /// Length of a streak, as a multiple of its width: 1 or more, default 22.
+    /// Length of a streak, as a multiple of its width: 1 or more, default 22. Threads of run-off keep their width for
+    /// 2.5 times as long; they end where the rust does.
     pub streak_stretch: f32,
     /// Colour of dust and soot. Default: almost black, (0.02, 0.018, 0.016).
     pub dust: Vec3,

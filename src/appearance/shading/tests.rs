@@ -133,7 +133,8 @@ fn run_off_is_streaked_down_the_surface() {
         };
         let change = |step: Vec3| -> f32 { plate().map(|p| (at(p) - at(p + step)).length()).sum() };
         let (along, across) = (change(Vec3::Y * 0.004), change(Vec3::X * 0.004));
-        assert!(across > 3.0 * along, "{normal}: {along} along, {across} across");
+        // The veil between the threads is mottled, on purpose, so that it does not read as the grain of wood.
+        assert!(across > 2.0 * along, "{normal}: {along} along, {across} across");
     }
 }
 
@@ -173,4 +174,55 @@ fn patterns_are_the_seeds() {
     assert_eq!(StainPattern::new(3, Vec3::Y * 2.0), StainPattern::new(3, Vec3::Y));
     assert_ne!(StainPattern::new(3, Vec3::Y).offset, StainPattern::new(4, Vec3::Y).offset);
     assert_eq!(StainPattern::new(3, Vec3::ZERO).streaks, Vec3::ZERO);
+}
+
+/// Returns the red light that run-off of `rust` layers takes away at each place of the plate.
+fn darkening(rust: f32) -> Vec<f32> {
+    let shading = FilmShading::default();
+    let color = |rest| {
+        let s = StainSample { rust, rest, normal: Vec3::Z, ..StainSample::default() };
+        shading.film(PAINT, &s, &pattern()).base_color
+    };
+    plate().map(|rest| PAINT.base_color.x - color(rest).x).collect()
+}
+
+#[test]
+fn threads_are_few_and_only_grow_with_the_rust() {
+    let darks = [0.05, 0.15, 0.3, 0.8].map(darkening);
+    for pair in darks.windows(2) {
+        let kept = pair[0].iter().zip(&pair[1]).all(|(less, more)| less <= &(more + 1e-3));
+        assert!(kept, "a thread that is there with less rust is there with more");
+    }
+    for (dark, most) in darks.iter().zip([0.15, 0.25, 0.35, 0.6]) {
+        let deepest = dark.iter().copied().fold(0.0, f32::max);
+        let thread = dark.iter().filter(|&&d| d > 0.5 * deepest).count() as f32 / dark.len() as f32;
+        assert!(thread > 0.01 && thread < most, "threads take {thread}");
+    }
+}
+
+#[test]
+fn between_threads_lies_a_veil() {
+    let mut dark = darkening(0.3);
+    dark.sort_unstable_by(f32::total_cmp);
+    let at = |share: f32| dark[(share * dark.len() as f32) as usize];
+    assert!(at(0.02) > 0.02, "no place is clean");
+    // Streaks of equal weight would be about as often dark as light.
+    assert!(at(0.99) > 1.8 * at(0.5) && at(0.5) < 1.8 * at(0.1), "{} {} {}", at(0.1), at(0.5), at(0.99));
+}
+
+#[test]
+fn threads_are_dark_inside_and_orange_at_their_edges() {
+    let shading = FilmShading::default();
+    let white = SurfaceShading { base_color: Vec3::splat(0.8), ..PAINT };
+    let at = |rest| {
+        let s = StainSample { rust: 0.5, rest, normal: Vec3::Z, ..StainSample::default() };
+        shading.film(white, &s, &pattern()).base_color
+    };
+    // From the lightest to the darkest place, along a level line.
+    let mut colors: Vec<Vec3> = (0..4000).map(|i| at(Vec3::new(i as f32 * 1e-4, 0.13, 0.01))).collect();
+    colors.sort_unstable_by(|a, b| a.element_sum().total_cmp(&b.element_sum()));
+    let chroma = |c: &Vec3| c.x - c.z;
+    let (inside, edge) = (colors[40], colors[1600]);
+    assert!(inside.x < 0.12, "brown-black: {inside}");
+    assert!(chroma(&edge) > 3.0 * chroma(&inside) && edge.x > 1.5 * edge.y, "orange: {edge}, inside {inside}");
 }

@@ -53,7 +53,8 @@ struct StainSample {
     footprint: f32,
 }
 
-const STREAK_EDGE: f32 = 0.26;
+const THREAD_EDGE: f32 = 0.18;
+const MEAN_CRUST: f32 = 0.225;
 const DARKEST: f32 = 1e-3;
 const RUST_REFLECTANCE: f32 = 0.3;
 const WATER_REFLECTANCE: f32 = 0.36;
@@ -120,6 +121,14 @@ fn rusted(u: StainUniform, base: SurfaceShading, color: vec3<f32>, covered: f32)
     return shading;
 }
 
+// Pattern of the threads in which rust runs off.
+fn threads(u: StainUniform, s: StainSample, blotch: Grain) -> Grain {
+    let octaves = Octaves(u.streak_width * vec3<f32>(3.2, 1.1, 0.4), vec3<f32>(0.45, 0.45, 0.2));
+    var aside = s;
+    aside.rest += vec3<f32>(0.14 * u.streak_width * (blotch.value - 0.5));
+    return streak_grain(u, aside, octaves, 2.5 * u.streak_stretch);
+}
+
 // Surface under run-off rust.
 fn run_off(
     u: StainUniform,
@@ -130,13 +139,18 @@ fn run_off(
     hold: f32,
 ) -> SurfaceShading {
     let amount = 1.0 - exp(-3.0 * s.rust);
-    let hairs = Octaves(u.streak_width * vec3<f32>(0.6, 0.25, 0.1), vec3<f32>(0.4, 0.4, 0.3));
-    let hair = streak_grain(u, s, hairs, 2.5 * u.streak_stretch);
-    let core = cover(streak, amount, STREAK_EDGE);
-    let wash = amount * around(streak, 1.0, 0.7) * around(blotch, 1.0, 0.25);
-    let covered = clamp(mix(wash, core, 0.5) * around(hair, 1.0, 0.3), 0.0, 1.0) * u.rust_strength * hold;
-    let depth = amount * around(streak, 0.72, 0.42) * around(hair, 1.0, 0.2);
-    let thick = smoothstep(0.3, 1.05, depth + 0.1 * around(blotch, 0.0, 1.0));
+    let thread = threads(u, s, blotch);
+    let share = amount * (0.22 + 0.3 * amount);
+    let strength = min(0.5 + 0.5 * sqrt(amount), 20.0 * amount);
+    let core = cover(thread, share, THREAD_EDGE) * strength;
+    let hidden = share * strength;
+    let even = (amount - hidden) / (1.0 - hidden);
+    let veil = even * around(thread, 1.0, 0.3) * around(streak, 1.0, 0.2) * around(blotch, 1.0, 0.3);
+    let covered = clamp(mix(veil, 1.0, core), 0.0, 1.0) * u.rust_strength * hold;
+    let inside = mix(0.75 * share, smoothstep(-0.12, 0.3, thread.value - 1.0 + share), thread.kept);
+    let crust = mix(MEAN_CRUST, smoothstep(0.6, 0.95, blotch.value), blotch.kept);
+    let depth = inside * around(streak, 1.15, 0.35) * around(blotch, 1.0, 0.3) + 0.4 * crust;
+    let thick = smoothstep(0.15, 1.1, amount * depth + 0.25 * smoothstep(0.6, 1.0, amount));
     let color = mix(u.rust_thin, u.rust_thick, thick) * around(blotch, 1.0, 0.16);
     return rusted(u, base, color, covered);
 }
