@@ -58,7 +58,12 @@ impl PartChanges {
 
     /// Returns whether nothing changed.
     pub fn is_empty(&self) -> bool {
-        !self.whole && [&self.renewed, &self.moved, &self.stained, &self.indices].iter().all(|list| list.0.is_empty())
+        self.stained.is_empty() && self.is_stained_only()
+    }
+
+    /// Returns whether nothing but stains changed.
+    pub fn is_stained_only(&self) -> bool {
+        !self.whole && [&self.renewed, &self.moved, &self.indices].iter().all(|list| list.is_empty())
     }
 }
 

@@ -1,9 +1,11 @@
 //! Checks that the appearance at rest is the prop, and that it follows the film later.
 
 use bevy_math::{Vec2, Vec3};
+use proptest::prelude::*;
 
 use super::{face_slots::has_separated, *};
 use crate::{
+    film::{FaceId, HalfEdgeId},
     remesh::sample,
     settings::{CoatingSettings, Preset},
     sim::FilmState,
@@ -88,9 +90,9 @@ fn each_slot_has_backs_and_metal_of_its_own_with_its_coordinates() {
     film.age_to(0.8, &settings, &Environment::default());
     let appearance = FilmAppearance::new(&piece.film, &piece.surface, &film.mesh, &film.forces, &film.stains);
     let topology = &film.mesh.topology;
-    let separated = |f: &crate::film::FaceId| has_separated(topology, &film.forces, *f);
+    let separated = |f: &FaceId| has_separated(topology, &film.forces, *f);
     for slot in 0..2u32 {
-        let here = |f: &crate::film::FaceId| piece.film.slots[f.index()] == slot;
+        let here = |f: &FaceId| piece.film.slots[f.index()] == slot;
         let backs = topology.live_faces().filter(here).filter(separated).count();
         let gone = topology.all_faces().filter(here).filter(|&f| !topology.is_live(f)).count();
         let part = |part: Option<&MeshPart>| part.unwrap().clone();
@@ -242,6 +244,48 @@ fn changes_of_parts_tell_all_that_changed() {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// However a film is torn, stripped and stepped, what is shown is what a new appearance shows.
+    #[test]
+    fn edits_are_shown_as_a_new_appearance_shows_them(
+        edits in prop::collection::vec((0..3u8, any::<prop::sample::Index>()), 1..40),
+        level in 0..=2u32,
+    ) {
+        let piece = sample::curved_plate(160, 5).unwrap();
+        let settings = CoatingSettings::from(Preset::Paper);
+        let environment = Environment::default();
+        let mut film = FilmState::new(&piece.film, &settings, 5, 60).unwrap();
+        let detail = Detail { level, ..Detail::default() };
+        let fresh = |film: &FilmState| {
+            let FilmState { mesh, forces, stains, .. } = film;
+            FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap()
+        };
+        let (mut followed, mut changes) = (fresh(&film), DisplayChanges::default());
+        for (kind, at) in edits {
+            let topology = &film.mesh.topology;
+            match kind {
+                0 => {
+                    let edge = HalfEdgeId::new(at.index(topology.half_edge_count()));
+                    film.tear_edge(edge, &settings, &environment);
+                }
+                1 => {
+                    let face = FaceId::new(at.index(topology.face_count()));
+                    film.strip_face(face, &settings, &environment);
+                }
+                _ => film.step(&settings, &environment),
+            }
+            changes.record(&film.changes, &film.stains);
+            // Not at every edit, so that several are seen at once.
+            if at.index(3) > 0 {
+                followed.update(&film.mesh, &film.forces, &film.stains, changes.take());
+                prop_assert_eq!(arrays(&followed), arrays(&fresh(&film)));
+            }
+        }
+    }
+}
+
 #[test]
 fn what_nothing_happened_to_is_not_written() {
     let piece = sample::plate(3000, 3).unwrap();
@@ -336,49 +380,5 @@ fn flipped_faces_are_wound_as_the_prop_was() {
     for t in triangles(front) {
         let [a, b, c] = t.map(|i| at(&front.positions, i));
         assert!((b - a).cross(c - a).z < 0.0);
-    }
-}
-
-#[test]
-#[ignore = "timing"]
-fn time_display() {
-    for (triangles, preset) in [(3012, Preset::Paper), (10_000, Preset::Paper), (10_000, Preset::Default)] {
-        for level in [0u32, 2] {
-            let piece = sample::plate(triangles, 1).unwrap();
-            let settings = CoatingSettings::from(preset);
-            let mut film = FilmState::new(&piece.film, &settings, 1, 1000).unwrap();
-            let detail = Detail { level, ..Detail::default() };
-            let t = std::time::Instant::now();
-            let mut shown = FilmAppearance::with_detail(
-                &piece.film,
-                &piece.surface,
-                &film.mesh,
-                &film.forces,
-                &film.stains,
-                detail,
-            )
-            .unwrap();
-            let made = t.elapsed();
-            let mut changes = DisplayChanges::default();
-            let mut sums = std::collections::BTreeMap::<(bool, bool, bool, bool), (u32, f64)>::new();
-            let (mut sim, mut all) = (0.0, 0.0);
-            for _ in 0..1000 {
-                let t = std::time::Instant::now();
-                film.step(&settings, &Environment::default());
-                sim += t.elapsed().as_secs_f64();
-                changes.record(&film.changes, &film.stains);
-                let taken = changes.take();
-                let t = std::time::Instant::now();
-                shown.update(&film.mesh, &film.forces, &film.stains, taken);
-                let s = t.elapsed().as_secs_f64();
-                all += s;
-                let sum = sums.entry((taken.moved, taken.topology, taken.exposure, taken.stains)).or_default();
-                *sum = (sum.0 + 1, sum.1 + s);
-            }
-            println!("{triangles} {preset:?} level {level}: new {made:?}, sim {sim:.3} display {all:.3}");
-            for (k, (n, s)) in sums {
-                println!("   moved/topology/exposure/stains {k:?}: {n} x {:.3} ms", s / f64::from(n) * 1e3);
-            }
-        }
     }
 }

@@ -343,7 +343,7 @@ pub(super) fn write_fronts(
                         continue;
                     };
                     let whole = changes.whole || front.canvas.take_relaid() || !front.shown;
-                    if !whole && changes.is_empty() && front.canvas.changed().is_empty() {
+                    if !whole && changes.is_stained_only() && front.canvas.changed().is_empty() {
                         continue;
                     }
                     let Some(mut mesh) = front.handle.as_ref().and_then(|handle| assets.get_mut(handle)) else {

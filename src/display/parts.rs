@@ -143,7 +143,7 @@ impl PartAssets<'_, '_> {
         let whole = changes.whole || part.canvas.take_relaid() || !part.shown;
         // What the last update changed is written once.
         let whole = (whole && !show.changes.is_empty()) || part.attributes != attributes;
-        let unchanged = show.changes.is_empty() || (changes.is_empty() && part.canvas.changed().is_empty());
+        let unchanged = show.changes.is_empty() || (changes.is_stained_only() && part.canvas.changed().is_empty());
         if unchanged && !whole {
             return;
         }
