@@ -6,6 +6,7 @@
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
 //! | [`baking`] | ageing model files without an engine |
+//! | [`snapshots`] | saving and restoring films, going to any step |
 //! | [`performance`] | measured times, quality levels |
 //! | [`limits`] | which meshes are taken, and what is not simulated |
 //! | [`how_it_works`] | the stages, and where each comes from in the paper |
@@ -20,6 +21,7 @@ macro_rules! links {
 [settings]: crate::guide::settings
 [stains]: crate::guide::stains
 [baking]: crate::guide::baking
+[snapshots]: crate::guide::snapshots
 [performance]: crate::guide::performance
 [limits]: crate::guide::limits
 [how it works]: crate::guide::how_it_works
@@ -44,6 +46,10 @@ pub mod stains {}
 #[doc = links!()]
 #[doc = include_str!("../docs/baking.md")]
 pub mod baking {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/snapshots.md")]
+pub mod snapshots {}
 
 #[doc = links!()]
 #[doc = include_str!("../docs/performance.md")]

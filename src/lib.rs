@@ -118,12 +118,15 @@ pub mod appearance;
 mod attach;
 #[cfg(feature = "bake")]
 pub mod bake;
+mod coding;
 pub mod deform;
 #[cfg(feature = "plugin")]
 mod display;
+mod files;
 pub mod film;
 pub mod fracture;
 pub mod guide;
+pub mod history;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "plugin")]
@@ -134,6 +137,7 @@ pub mod settings;
 #[cfg(feature = "plugin")]
 mod shelter;
 pub mod sim;
+pub mod snapshot;
 pub mod stain;
 #[cfg(feature = "plugin")]
 mod stepping;

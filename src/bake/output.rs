@@ -6,8 +6,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{
-    error::BakeError,
+use super::error::BakeError;
+use crate::files::{
+    folder_of,
     temporary::{self, Temporary},
 };
 
@@ -122,7 +123,7 @@ impl StagedFiles {
         }
         let claim = self.claimed.iter_mut().find(|(named, filled)| named.path == path && !filled);
         claim.into_iter().for_each(|(_, filled)| *filled = true);
-        let temporary = Temporary::write(folder_of(&file), bytes)
+        let temporary = Temporary::write(folder_of(&file), ".bake-", bytes)
             .map_err(|source| BakeError::Write { path: path.into(), source })?;
         self.waiting.push(Waiting::File(temporary, Named { path: path.into(), file }));
         Ok(())
@@ -167,10 +168,6 @@ impl StagedFiles {
     pub fn abandon_all(end: impl FnOnce()) {
         temporary::remove_all(end);
     }
-}
-
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Finds out where `path` leads.

@@ -4,6 +4,8 @@
 //! And it is narrowed the less the farther the edge is from a free edge, as every edge of film that is held all around
 //! wants to fold and none can. The distance runs over connected film; it changes only where something tore.
 
+mod saved;
+
 use std::collections::VecDeque;
 
 use bevy_math::{Vec3, ops};

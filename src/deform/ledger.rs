@@ -1,5 +1,7 @@
 //! The ledger of a film's constraints: which half-edge carries which.
 
+pub mod saved;
+
 use crate::film::{HalfEdgeId, words::Words};
 
 /// Stands for no constraint, in place of its lane.

@@ -40,6 +40,7 @@ pub(crate) mod tests;
 
 pub use bend::BendConstraint;
 pub use constraints::FilmConstraints;
+pub(crate) use constraints::saved::code_quality;
 pub use free_edges::follow_free_edges;
 pub use length::LengthConstraint;
 pub use pace::{SolvePace, SolverQuality, sweeps_and_momentum, sweeps_of_step};

@@ -12,6 +12,8 @@
 //!
 //! A loose piece sleeps as a whole or not at all: a part of it held fast would push the rest about without end.
 
+mod saved;
+
 use bevy_math::Vec3;
 
 use super::{
@@ -78,6 +80,16 @@ impl SleepMarks {
     pub fn mark(&mut self, v: VertexId, points: &Points) {
         self.positions[v.index()] = points.position(v.index());
         self.quiet[v.index()] = 0;
+    }
+
+    /// Forgets where `v` was before, which is gone at `position`: nothing asks for it any more, and a snapshot need not
+    /// hold it.
+    pub fn forget(&mut self, v: VertexId, position: Vec3) {
+        self.positions[v.index()] = position;
+        self.quiet[v.index()] = 0;
+        if let Some(announced) = self.announced.get_mut(v.index()) {
+            *announced = position;
+        }
     }
 
     /// Wakes `v` if it sleeps, and the constraints at it.

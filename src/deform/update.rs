@@ -79,7 +79,7 @@ pub fn update_constraints(mesh: &FilmMesh, constraints: &mut FilmConstraints, ch
         constrain_ring(mesh, constraints, v);
     }
     if !changes.removed.is_empty() {
-        constraints.forget(topology, &changes.removed);
+        constraints.forget(mesh, &changes.removed);
     }
     if !(changes.torn.is_empty() && changes.removed.is_empty()) {
         constraints.compact(topology);

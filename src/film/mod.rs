@@ -31,6 +31,7 @@ mod grain;
 mod handles;
 mod mesh;
 mod pieces;
+mod saved;
 mod topology;
 mod validate;
 pub(crate) mod words;
@@ -43,6 +44,7 @@ pub use grain::Grain;
 pub use handles::{FaceId, HalfEdgeId, VertexId};
 pub use mesh::FilmMesh;
 pub use pieces::{FilmPieces, LoosePiece, LoosePieces, PieceScratch};
+pub(crate) use saved::write_rest;
 pub use topology::{FaceFate, Fan, Topology, TopologyError};
 pub use validate::InvariantError;
 

@@ -9,17 +9,17 @@ use bevy_math::ops;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Binding {
     /// Force before any decay: drawn with the film's seed, or set by hand.
-    drawn: f32,
+    pub(super) drawn: f32,
     /// Share of it that was left when the film's decay was `since`.
-    share: f32,
+    pub(super) share: f32,
     /// Decay of the film at which `share` held.
-    since: f32,
+    pub(super) since: f32,
     /// Number of the edge's two faces that have a torn edge; 0 once the edge itself has torn.
-    torn_faces: u8,
+    pub(super) torn_faces: u8,
     /// Whether the force was set by hand, so that it does not follow settings.
-    by_hand: bool,
+    pub(super) by_hand: bool,
     /// Whether torn edges beside it make it decay.
-    decays: bool,
+    pub(super) decays: bool,
 }
 
 impl Binding {

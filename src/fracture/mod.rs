@@ -31,6 +31,7 @@ mod neck;
 mod neck_search;
 mod predictions;
 mod relief;
+mod saved;
 mod scratch;
 mod separation;
 mod sigmoid;

@@ -9,9 +9,9 @@ use crate::film::{VertexId, words::Words};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Catchments {
     /// Original vertex that each original vertex drains to; itself if it drains no further.
-    drains: Vec<u32>,
+    pub(super) drains: Vec<u32>,
     /// Length in metres of the cracks that drain to each original vertex that drains no further.
-    lengths: Vec<f32>,
+    pub(super) lengths: Vec<f32>,
 }
 
 impl Catchments {

@@ -33,9 +33,9 @@ pub(super) struct Flow {
     /// Sum of gravity and wind that the ways were computed for; zero before the first tick.
     pub pull: Vec3,
     /// Sideways spread that the ways were computed for: the standard deviation in metres after one metre.
-    spread: f32,
+    pub(super) spread: f32,
     /// Share of run-off that drops into cracks that the ways were computed for.
-    into_cracks: f32,
+    pub(super) into_cracks: f32,
     /// Original vertices in the order of their depth along the pull. Run-off goes to strictly deeper vertices only, so
     /// one pass in this order takes it all the way down.
     order: Vec<u32>,
@@ -132,7 +132,7 @@ impl Flow {
     }
 
     /// Returns whether there may be run-off at `original`.
-    fn is_awake(&self, original: VertexId) -> bool {
+    pub fn is_awake(&self, original: VertexId) -> bool {
         let rank = self.ranks[original.index()];
         self.awake[rank as usize / 64] & (1 << (rank % 64)) != 0
     }

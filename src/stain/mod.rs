@@ -25,6 +25,7 @@ mod moisture;
 mod outflow;
 mod places;
 mod rust;
+mod saved;
 mod shape;
 pub(crate) mod shown;
 mod slope;

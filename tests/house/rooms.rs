@@ -11,11 +11,14 @@ use crate::{
 };
 
 /// Rooms (files and folders of `src`) from the lowest upwards. Those of one rung may import from each other, one way.
-const LADDER: [&[&str]; 11] = [
+const LADDER: [&[&str]; 14] = [
+    &["coding", "files"],
     &["settings", "film"],
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
     &["sim"],
+    &["snapshot"],
+    &["history"],
     &["appearance"],
     &["bake"],
     &["api", "mesh_reader"],
@@ -26,8 +29,22 @@ const LADDER: [&[&str]; 11] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 10] =
-    ["settings", "film", "surface", "remesh", "fracture", "deform", "stain", "sim", "appearance", "bake"];
+const CORE: [&str; 14] = [
+    "coding",
+    "files",
+    "settings",
+    "film",
+    "surface",
+    "remesh",
+    "fracture",
+    "deform",
+    "stain",
+    "sim",
+    "snapshot",
+    "history",
+    "appearance",
+    "bake",
+];
 
 /// The file of the core that is about Bevy's assets.
 const ENGINE_FILES: [&str; 1] = ["settings/asset.rs"];

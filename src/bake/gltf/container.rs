@@ -17,7 +17,7 @@ use super::{
     document::{Document, lookup},
     extensions,
 };
-use crate::bake::{carried::Carried, files};
+use crate::{bake::carried::Carried, files};
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";

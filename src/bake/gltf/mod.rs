@@ -26,11 +26,11 @@ pub use error::GltfError;
 
 use super::{
     error::BakeError,
-    files,
     images::Images,
     model::{MaterialLibrary, Model},
     warning::BakeWarning,
 };
+use crate::files;
 use container::Container;
 
 /// Reads a file, and those beside it that it refers to.

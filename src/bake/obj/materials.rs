@@ -9,13 +9,15 @@ use super::{
     mtl::{self, MtlMap, MtlMaterial},
     words,
 };
-use crate::bake::{
+use crate::{
+    bake::{
+        images::Images,
+        media::media_type,
+        model::{Image, MaterialLibrary, Model},
+        textures::{MAX_TEXELS, Texture},
+        warning::BakeWarning,
+    },
     files,
-    images::Images,
-    media::media_type,
-    model::{Image, MaterialLibrary, Model},
-    textures::{MAX_TEXELS, Texture},
-    warning::BakeWarning,
 };
 
 /// Greatest exponent of a highlight (`Ns`).

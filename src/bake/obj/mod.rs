@@ -14,7 +14,8 @@ mod words;
 
 use std::path::Path;
 
-use super::{error::BakeError, files, images::Images, model::Model};
+use super::{error::BakeError, images::Images, model::Model};
+use crate::files;
 use reader::Reader;
 
 pub use error::ObjError;

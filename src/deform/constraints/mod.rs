@@ -7,6 +7,7 @@
 #[cfg(feature = "bench")]
 mod bench;
 mod digest;
+pub(in crate::deform) mod saved;
 mod validate;
 
 use super::{
@@ -204,10 +205,11 @@ impl FilmConstraints {
     }
 
     /// Takes the corners of removed faces that have no other face off the list of what moves.
-    pub(super) fn forget(&mut self, topology: &Topology, removed: &[FaceId]) {
-        let points = self.packed.points_mut();
+    pub(super) fn forget(&mut self, mesh: &FilmMesh, removed: &[FaceId]) {
+        let (topology, points) = (&mesh.topology, self.packed.points_mut());
         for v in removed.iter().flat_map(|&f| topology.corners(f)).filter(|&v| !topology.has_faces(v)) {
             points.leave(v.index());
+            self.sleep.forget(v, mesh.geometry.positions[v.index()]);
         }
         points.settle();
     }

@@ -1,5 +1,7 @@
 //! The packed solver: the points of a film, and the packs that hold the constraints which anything can move.
 
+mod saved;
+
 use super::{
     layout::Layout,
     level::{Kernels, SimdLevel},
@@ -156,9 +158,14 @@ impl PackedConstraints {
         if !ledger.lengths().is_parked(h) {
             return;
         }
+        let length = self.length_lane(mesh, h);
+        self.place_length(ledger, &mesh.topology, h, &length);
+    }
+
+    /// Returns the length constraint that `h` carries, as a lane holds it.
+    fn length_lane(&self, mesh: &FilmMesh, h: HalfEdgeId) -> LengthLane {
         let vertices = [mesh.topology.origin(h).0, mesh.topology.target(h).0];
-        let rest = mesh.geometry.rest_lengths[h.index()] / self.points.unit();
-        self.place_length(ledger, &mesh.topology, h, &LengthLane { vertices, rest });
+        LengthLane { vertices, rest: mesh.geometry.rest_lengths[h.index()] / self.points.unit() }
     }
 
     fn place_length(&mut self, ledger: &mut Ledger, topology: &Topology, h: HalfEdgeId, length: &LengthLane) {
@@ -182,12 +189,18 @@ impl PackedConstraints {
         if !ledger.bends().is_parked(h) {
             return;
         }
+        let bend = self.bend_lane(ledger, mesh, h);
+        self.place_bend(ledger, &mesh.topology, h, &bend);
+    }
+
+    /// Returns the bend constraint that `h` carries and that is parked, as a lane holds it.
+    fn bend_lane(&self, ledger: &Ledger, mesh: &FilmMesh, h: HalfEdgeId) -> BendLane {
         let vertices = bend_points(&mesh.topology, h);
         let (skews, medians) = shape_at_rest(vertices.map(|v| mesh.geometry.rest_positions[v as usize]));
         let unit = self.points.unit();
         let medians = medians.map(|median| (median / unit) * (median / unit));
         let (start, target, share) = (ledger.start(h), ledger.parked_target(h), ledger.share(h));
-        self.place_bend(ledger, &mesh.topology, h, &BendLane { vertices, skews, medians, start, target, share });
+        BendLane { vertices, skews, medians, start, target, share }
     }
 
     fn place_bend(&mut self, ledger: &mut Ledger, topology: &Topology, h: HalfEdgeId, bend: &BendLane) {

@@ -1,5 +1,7 @@
 //! The points of a film in the packed solver: where they are, and which of them move.
 
+mod saved;
+
 use bevy_math::{Vec3, Vec4};
 
 use super::{

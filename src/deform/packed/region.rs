@@ -1,5 +1,7 @@
 //! Packs of one region of a film: constraints that lie near each other, so that their points stay in the cache.
 
+pub mod saved;
+
 use super::{
     level::{Kernels, SimdLevel},
     pack::{BendPack, BendTargets, LANES, LengthPack},
@@ -61,6 +63,12 @@ impl Region {
             self.targets.push(BendTargets::NULL);
             self.narrowing.push(true);
         }
+        self.put_bend(lane, bend, points);
+        lane
+    }
+
+    /// Writes a bend into a lane.
+    fn put_bend(&mut self, lane: u32, bend: &BendLane, points: &Points) {
         let (pack, slot) = split(lane);
         for i in 0..2 {
             self.bends[pack].medians[i][slot] = bend.medians[i];
@@ -72,7 +80,6 @@ impl Region {
         // Its folds are found when the targets narrow next.
         self.narrowing[pack] = true;
         self.move_bend(lane, bend.vertices, points);
-        lane
     }
 
     /// Adds a length to a pack that is not blocked. Returns its lane.
@@ -81,10 +88,15 @@ impl Region {
         if begun {
             self.lengths.push(LengthPack::NULL);
         }
+        self.put_length(lane, length, points);
+        lane
+    }
+
+    /// Writes a length into a lane.
+    fn put_length(&mut self, lane: u32, length: &LengthLane, points: &Points) {
         let (pack, slot) = split(lane);
         self.lengths[pack].rest[slot] = length.rest;
         self.move_length(lane, length.vertices, points);
-        lane
     }
 
     /// Sets the share by which the target of the bend in `lane` narrows.

@@ -1,5 +1,7 @@
 //! Which lane of which pack holds which constraint.
 
+mod saved;
+
 use super::pack::{LANES, PerLane};
 use crate::film::words::Words;
 

@@ -19,31 +19,31 @@ const SAME_GRAVITY: f32 = 1e-3;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::stain) struct DustRates {
     /// Rate of each film vertex, per unit age.
-    rates: Vec<f32>,
+    pub(in crate::stain) rates: Vec<f32>,
     /// Share of the clean surface of each film vertex that is still clean after a tick.
-    left: Vec<f32>,
+    pub(in crate::stain) left: Vec<f32>,
     /// Length of the tick that `left` and `metal` were computed for, an age.
-    dt: f32,
+    pub(in crate::stain) dt: f32,
     /// Openness of the metal under each original vertex and the share of its clean surface that is still clean after a
     /// tick. An openness of 0 means that the share is not known yet.
-    metal: Vec<[f32; 2]>,
+    pub(in crate::stain) metal: Vec<[f32; 2]>,
     /// Position of each film vertex when its rate was computed.
-    seen: Vec<Vec3>,
+    pub(in crate::stain) seen: Vec<Vec3>,
     /// Whether the rate of each film vertex must be computed again.
-    stale: Vec<bool>,
+    pub(in crate::stain) stale: Vec<bool>,
     /// Inputs that all rates have in common; `None` before the first tick.
-    basis: Option<Basis>,
+    pub(in crate::stain) basis: Option<Basis>,
 }
 
 /// Inputs that the rates of all vertices have in common.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Basis {
-    gravity: Vec3,
-    settings: DustSettings,
+pub(in crate::stain) struct Basis {
+    pub(in crate::stain) gravity: Vec3,
+    pub(in crate::stain) settings: DustSettings,
     /// Height of the prop's lowest point against gravity.
-    foot: f32,
+    pub(in crate::stain) foot: f32,
     /// Height of the prop's highest point over its lowest.
-    extent: f32,
+    pub(in crate::stain) extent: f32,
 }
 
 impl DustRates {
@@ -141,6 +141,10 @@ impl DustRates {
         for (i, stale) in stale.iter_mut().enumerate().filter(|(_, stale)| **stale) {
             *stale = false;
             let v = VertexId::new(i);
+            if !topology.has_faces(v) {
+                // Nothing moves it any more, and a snapshot need not hold where it was.
+                seen[i] = positions[i];
+            }
             rates[i] = basis.rate(mesh, v, Shape::now(mesh, v));
             if let Some(left) = left.get_mut(i) {
                 *left = ops::exp(-(rates[i] * dt));
@@ -165,7 +169,7 @@ impl Basis {
     }
 
     /// Returns the rate at a vertex of `shape`, per unit age.
-    fn rate(&self, mesh: &FilmMesh, v: VertexId, shape: Shape) -> f32 {
+    pub(in crate::stain) fn rate(&self, mesh: &FilmMesh, v: VertexId, shape: Shape) -> f32 {
         let height = -mesh.geometry.rest_positions[v.index()].dot(self.gravity) - self.foot;
         let height = if self.extent > 0.0 { height / self.extent } else { 0.0 };
         let factors = DustFactors { height, facing: shape.normal.dot(self.gravity), dihedral: shape.dihedral };

@@ -1,9 +1,8 @@
-//! Reads files that a model is made of.
+//! Reads files that a user names.
 
-use std::{
-    fs, io,
-    path::{Component, Path, PathBuf},
-};
+#[cfg(feature = "bake")]
+use std::path::{Component, PathBuf};
+use std::{fs, io, path::Path};
 
 /// Reads a whole file. Pipes and devices are refused: to read them may take for ever.
 ///
@@ -22,6 +21,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 
 /// Returns a relative path, which may lead out of its folder; `None` for other paths: these are places on another
 /// machine.
+#[cfg(feature = "bake")]
 pub fn relative(path: &str) -> Option<PathBuf> {
     let path = Path::new(path);
     let is_relative = path.components().all(|part| !matches!(part, Component::Prefix(_) | Component::RootDir));

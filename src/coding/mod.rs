@@ -1,0 +1,28 @@
+//! Codes numbers that can nearly be foretold, to the bit: the ground of snapshots.
+//!
+//! Whoever saves a number says what it expects; only the difference is coded, in few bits where it is small and in
+//! almost none where there is none. The same function writes and reads: it is given a `Coder`, which either takes
+//! the number or replaces it. So the two directions cannot differ, and what is expected wrongly costs bytes, never bits
+//! of the result.
+//!
+//! | part | module |
+//! |---|---|
+//! | bits whose odds are learned as they come | `odds` |
+//! | the range coder: such bits in the space that they deserve | `range_coder` |
+//! | differences of any size | `difference` |
+//! | single bits, written or read | `bits` |
+//! | what a part of a film codes itself with | `coder` |
+
+mod bits;
+mod coder;
+mod difference;
+mod odds;
+mod range_coder;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use bits::Damage;
+pub(crate) use coder::Coder;
+pub(crate) use difference::Differences;
+pub(crate) use odds::Odds;
+pub(crate) use range_coder::{Reader, Writer};

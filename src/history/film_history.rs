@@ -1,0 +1,198 @@
+//! The history of a film.
+
+use super::{
+    conditions::Conditions,
+    event::{Event, LogEntry},
+    keyframes::{Keyframe, Keyframes},
+};
+use crate::{
+    coding::Damage,
+    settings::CoatingSettings,
+    sim::{FilmState, FreshFilm},
+    snapshot::SnapshotError,
+    stain::Environment,
+};
+
+/// Memory for the keyframes of a history, unless another is [set](History::set_keyframe_bytes): 16 MiB.
+pub const DEFAULT_KEYFRAME_BYTES: usize = 16 << 20;
+
+/// A film with its past: it steps on, and goes to any step that it has taken, or will take, with the same bits.
+///
+/// The film is changed through the history alone: by [`step`](Self::step), [`record`](Self::record) and
+/// [`seek`](Self::seek). An event in the past makes another future: what was logged after it is forgotten.
+///
+/// ```
+/// use bevy_coating::{
+///     history::{Event, History},
+///     remesh::sample,
+///     settings::CoatingSettings,
+///     sim::FilmState,
+///     stain::Environment,
+/// };
+/// use bevy_math::Vec3;
+///
+/// let settings = CoatingSettings::default();
+/// let piece = sample::plate(200, 7)?;
+/// let film = FilmState::new(&piece.film, &settings, 7, 100).ok_or("no film")?;
+/// let mut history = History::new(film, settings, Environment::default())?;
+/// history.seek(40)?;
+/// history.record(Event::Environment(Environment { rain: Vec3::NEG_Y, ..Environment::default() }));
+/// history.seek(100)?;
+/// let old = history.film().digest();
+///
+/// history.seek(20)?;
+/// assert_eq!(history.film().clock.age(), 0.2);
+/// history.seek(100)?;
+/// assert_eq!(history.film().digest(), old, "it rained again from age 0.4 on");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct History {
+    film: FilmState,
+    now: Conditions,
+    fresh: FreshFilm,
+    /// Conditions at the first keyframe.
+    first: Conditions,
+    log: Vec<LogEntry>,
+    keyframes: Keyframes,
+}
+
+impl History {
+    /// Begins the history of `film` where it is now, fresh or not.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if public fields of the film were changed so that it is none any more.
+    pub fn new(
+        mut film: FilmState,
+        settings: CoatingSettings,
+        environment: Environment,
+    ) -> Result<Self, SnapshotError> {
+        let rest = film.mesh.at_rest().map_err(|_| SnapshotError::Unsaveable { part: "its mesh" })?;
+        let mut fresh = FreshFilm::new(rest);
+        let first = keyframe(&mut fresh, &mut film)?;
+        let now = Conditions { settings, environment };
+        let keyframes = Keyframes::new(first, DEFAULT_KEYFRAME_BYTES);
+        Ok(Self { film, first: now.clone(), now, fresh, log: Vec::new(), keyframes })
+    }
+
+    /// Sets the memory for keyframes, in bytes. More memory makes [`seek`](Self::seek) faster; the first keyframe stays
+    /// whatever the memory.
+    pub fn set_keyframe_bytes(&mut self, bytes: usize) {
+        self.keyframes.set_budget(bytes);
+    }
+
+    /// Returns the film as it is now.
+    pub fn film(&self) -> &FilmState {
+        &self.film
+    }
+
+    /// Returns the film as it is now, without its past.
+    pub fn into_film(self) -> FilmState {
+        self.film
+    }
+
+    /// Returns the settings of the next step.
+    pub fn settings(&self) -> &CoatingSettings {
+        &self.now.settings
+    }
+
+    /// Returns the environment of the next step.
+    pub fn environment(&self) -> &Environment {
+        &self.now.environment
+    }
+
+    /// Returns all events, in the order in which they happened, also those after the present step.
+    pub fn log(&self) -> &[LogEntry] {
+        &self.log
+    }
+
+    /// Returns the steps at which there are keyframes, in order.
+    pub fn keyframe_steps(&self) -> impl Iterator<Item = u64> + '_ {
+        self.keyframes.steps()
+    }
+
+    /// Returns the memory that keyframes take, in bytes.
+    pub fn keyframe_bytes(&self) -> usize {
+        self.keyframes.bytes()
+    }
+
+    /// Takes one step, with the events that were logged after it, if any were.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if a keyframe is due and the film cannot be saved; the step is taken then.
+    pub fn step(&mut self) -> Result<(), SnapshotError> {
+        self.film.step(&self.now.settings, &self.now.environment);
+        let step = self.film.clock.steps;
+        // Before the events at this step: they are applied after the keyframe is restored.
+        let saved = if self.keyframes.is_due(step) {
+            keyframe(&mut self.fresh, &mut self.film).map(|saved| self.keyframes.push(saved))
+        } else {
+            Ok(())
+        };
+        self.replay_events(step);
+        saved
+    }
+
+    /// Lets `event` happen now, before the next step. What was logged after this step is forgotten, and with it the
+    /// future that was. Returns whether the event changed anything; if not, it is not logged and nothing is forgotten.
+    pub fn record(&mut self, event: Event) -> bool {
+        let changes = self.now.apply(&mut self.film, &event);
+        if changes {
+            let step = self.film.clock.steps;
+            self.log.truncate(self.log.partition_point(|entry| entry.step <= step));
+            self.keyframes.truncate(step);
+            self.log.push(LogEntry { step, event });
+        }
+        changes
+    }
+
+    /// Goes to `step`, counted as by the film's clock: back, forward, or farther than ever. Before the step at which
+    /// the history begins there is nothing; it goes there then.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if a keyframe is due and the film cannot be saved. The film is somewhere on the
+    /// way then.
+    pub fn seek(&mut self, step: u64) -> Result<(), SnapshotError> {
+        let now = self.film.clock.steps;
+        if let Some(saved) = self.keyframes.before(step)
+            && (step < now || saved.step > now)
+        {
+            let restored = self.fresh.read(&saved.state, false);
+            let restored = restored.map_err(|Damage(part)| SnapshotError::Inconsistent { part })?;
+            let scratch = std::mem::take(&mut self.film.scratch);
+            self.film = FilmState { scratch, ..restored };
+            self.now = self.conditions_before(self.film.clock.steps);
+            self.replay_events(self.film.clock.steps);
+        }
+        while self.film.clock.steps < step {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// Returns the conditions before the events at `step`.
+    fn conditions_before(&self, step: u64) -> Conditions {
+        let past = self.log.iter().take_while(|entry| entry.step < step);
+        past.fold(self.first.clone(), |mut conditions, entry| {
+            match &entry.event {
+                Event::Settings(settings) => conditions.settings.clone_from(settings),
+                Event::Environment(environment) => conditions.environment = *environment,
+                _ => {}
+            }
+            conditions
+        })
+    }
+
+    /// Lets the events that were logged at `step` happen again.
+    fn replay_events(&mut self, step: u64) {
+        let first = self.log.partition_point(|entry| entry.step < step);
+        for entry in self.log.iter().skip(first).take_while(|entry| entry.step == step) {
+            self.now.apply(&mut self.film, &entry.event);
+        }
+    }
+}
+
+fn keyframe(fresh: &mut FreshFilm, film: &mut FilmState) -> Result<Keyframe, SnapshotError> {
+    let state = fresh.write(film).map_err(|Damage(part)| SnapshotError::Unsaveable { part })?;
+    Ok(Keyframe { step: film.clock.steps, state: state.into_boxed_slice() })
+}

@@ -1,0 +1,114 @@
+//! A history goes anywhere, with the bits that were there.
+
+use bevy_math::Vec3;
+
+use super::{
+    event::Event,
+    film_history::History,
+    keyframes::{Keyframe, Keyframes},
+};
+use crate::{
+    deform::SolverQuality,
+    film::{FaceId, HalfEdgeId, VertexId},
+    remesh::sample,
+    settings::{CoatingSettings, Preset},
+    sim::FilmState,
+    stain::{Environment, Exposure},
+};
+
+fn history(triangles: u32) -> History {
+    let settings = CoatingSettings::default();
+    let piece = sample::plate(triangles, 5).expect("a plate");
+    let film = FilmState::new(&piece.film, &settings, 5, 100).expect("a manifold");
+    History::new(film, settings, Environment::default()).expect("a history")
+}
+
+/// An event at each of some steps.
+fn events() -> Vec<(u64, Event)> {
+    let rain = Environment { rain: Vec3::NEG_Y, ..Environment::default() };
+    vec![
+        (0, Event::Adhesion(VertexId(3), f32::INFINITY)),
+        (10, Event::Environment(rain)),
+        (20, Event::Settings(Box::new(CoatingSettings::from(Preset::Heavy)))),
+        (20, Event::StripFace(FaceId(100))),
+        (35, Event::Exposure(Exposure { rain: vec![0.5; 40], sun: Vec::new() })),
+        (40, Event::Environment(Environment::still(Vec3::new(0.6, -0.8, 0.0)))),
+        (50, Event::Quality(SolverQuality::Fast)),
+        (60, Event::Contraction(FaceId(7), 2.5)),
+        (61, Event::Binding(HalfEdgeId(50), 0.1)),
+    ]
+}
+
+#[test]
+fn every_step_is_again_what_it_was() {
+    let mut history = history(300);
+    history.set_keyframe_bytes(40_000);
+    let (mut events, mut digests) = (events().into_iter().peekable(), Vec::new());
+    for step in 0..=120 {
+        while let Some((_, event)) = events.next_if(|(at, _)| *at == step) {
+            assert!(history.record(event.clone()), "{event:?} changes something");
+        }
+        digests.push(history.film().digest());
+        history.step().expect("a step");
+    }
+    assert!(history.keyframe_bytes() <= 40_000 && history.keyframe_steps().count() > 2);
+    for step in [100, 3, 0, 119, 20, 21, 19, 60, 61, 40, 120, 1, 120] {
+        history.seek(step).expect("the past");
+        assert_eq!(history.film().clock.steps, step);
+        assert_eq!(history.film().digest(), digests[step as usize], "step {step}");
+    }
+}
+
+#[test]
+fn a_change_in_the_past_forgets_the_future_alone() {
+    let mut history = history(200);
+    history.seek(30).expect("a step");
+    assert!(history.record(Event::Quality(SolverQuality::High)));
+    history.seek(80).expect("a step");
+    history.seek(20).expect("the past");
+    let same = Event::Environment(*history.environment());
+    assert!(!history.record(same), "nothing changes");
+    assert!(
+        !history.record(Event::TearEdge(HalfEdgeId(u32::MAX))) && !history.record(Event::Adhesion(VertexId(9999), 1.0))
+    );
+    assert_eq!(history.log().len(), 1, "the future is still there");
+    assert!(history.record(Event::Adhesion(VertexId(4), 0.0)));
+    assert_eq!((history.log().len(), history.log()[0].step), (1, 20));
+    assert!(history.keyframe_steps().all(|step| step <= 20));
+    history.seek(80).expect("a step");
+    assert_eq!(history.film().quality, SolverQuality::Default);
+    let digest = history.film().digest();
+    history.seek(0).expect("the past");
+    history.seek(80).expect("a step");
+    assert_eq!(history.film().digest(), digest);
+}
+
+#[test]
+fn a_history_begins_where_its_film_is() {
+    let mut film = history(200).into_film();
+    let (settings, environment) = (CoatingSettings::default(), Environment::default());
+    film.age_to(0.5, &settings, &environment);
+    let digest = film.digest();
+    let mut history = History::new(film, settings, environment).expect("a history");
+    history.seek(90).expect("a step");
+    history.seek(10).expect("the past");
+    assert_eq!((history.film().clock.steps, history.film().digest()), (50, digest));
+}
+
+#[test]
+fn keyframes_are_thinned_evenly() {
+    let keyframe = |step: u64| Keyframe { step, state: vec![0; 1000].into() };
+    let mut keyframes = Keyframes::new(keyframe(0), 20_000);
+    for step in 1..=1000 {
+        if keyframes.is_due(step) {
+            keyframes.push(keyframe(step));
+        }
+        assert!(keyframes.bytes() <= 20_000);
+    }
+    let steps: Vec<u64> = keyframes.steps().collect();
+    let gaps: Vec<u64> = steps.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let (least, most) = (gaps.iter().min(), gaps.iter().max());
+    assert!(steps.len() >= 15 && most < Some(&130) && least > Some(&15), "{gaps:?}");
+    keyframes.set_budget(0);
+    assert_eq!(keyframes.steps().collect::<Vec<_>>(), [0], "the first stays");
+}

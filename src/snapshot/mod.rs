@@ -1,0 +1,13 @@
+//! Saves films and restores them, to the bit: [`Snapshot`].
+
+mod digest;
+mod error;
+mod film_snapshot;
+mod header;
+mod serial;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::SnapshotError;
+pub use film_snapshot::Snapshot;
