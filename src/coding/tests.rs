@@ -30,7 +30,7 @@ impl Numbers {
         for (flag, expected) in &mut self.flags {
             coder.flag(&mut flags, flag, *expected);
         }
-        let mut few: Vec<f32> = self.few.iter().map(|bits| f32::from_bits(bits % 7 << 28)).collect();
+        let mut few: Vec<f32> = self.few.iter().map(|bits| f32::from_bits((bits % 7) << 28)).collect();
         coder.few_floats(&mut few, "few")?;
         self.few = few.into_iter().map(|x| x.to_bits() >> 28).collect();
         for (bits, count) in &mut self.plain {

@@ -174,7 +174,7 @@ mod tests {
         assert!(canvas.changed().is_empty(), "nothing to see");
         stains.iter_mut().take(10).for_each(|s| s[1] += 0.003);
         canvas.follow(&part(stains.clone()), writer, &all, false);
-        assert_eq!(canvas.changed().ranges().collect::<Vec<_>>(), [0..10], "small changes add up");
+        assert!(canvas.changed().ranges().flatten().eq(0..10), "small changes add up");
         let changed = before.iter().zip(canvas.colors()).filter(|(a, b)| a != b).count();
         assert_eq!(changed, 10);
         assert_eq!(canvas.colors()[..10], StainCanvas::new(&part(stains.clone()), writer).colors()[..10]);
@@ -213,6 +213,6 @@ mod tests {
         let colors = StainWriter { carrier: StainCarrier::Colors, ..writer };
         canvas.follow(&part(vec![[1.0; 4]; 4]), colors, &PartChanges::default(), false);
         assert!(canvas.take_relaid(), "the mesh needs colours");
-        assert_eq!(canvas.changed().ranges().collect::<Vec<_>>(), [0..4]);
+        assert!(canvas.changed().ranges().flatten().eq(0..4));
     }
 }

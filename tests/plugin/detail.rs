@@ -78,10 +78,10 @@ fn films_are_shown_as_finely_as_their_distance_asks_for() {
     let (alone, _) = aged(3, 100);
     let digest = film_state(&alone, plate).digest();
     let handle = mesh_handle(&app, plate);
-    let camera = spawn_camera(&mut app, 60.0);
+    let camera = spawn_camera(&mut app, 400.0);
     update_until(&mut app, |app| level(app) == 0);
     let mut seen = Vec::new();
-    for distance in [60.0, 20.0, 6.0, 0.7, 0.3, 6.0, 60.0] {
+    for distance in [400.0, 60.0, 6.0, 0.7, 0.3, 6.0, 400.0] {
         app.world_mut().get_mut::<Transform>(camera).expect("a place").translation.z = distance;
         // It ages while another level is prepared.
         take_steps(&mut app, 5);

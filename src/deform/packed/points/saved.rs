@@ -31,10 +31,10 @@ impl Points {
         let scale = 1.0 / self.unit;
         let (mut now, mut before): ([Differences; 3], [Differences; 3]) = Default::default();
         let mut masses: [Differences; 2] = Default::default();
-        for v in 0..self.motions.len() {
-            let i = self.offsets[v].index();
-            let mass = if self.motions[v] == Motion::Awake { 1.0 } else { 0.0 };
-            let expected = positions[v] * scale;
+        for ((&motion, offset), &position) in self.motions.iter().zip(&self.offsets).zip(positions) {
+            let i = offset.index();
+            let mass = if motion == Motion::Awake { 1.0 } else { 0.0 };
+            let expected = position * scale;
             code_point(&mut self.now[i], expected, mass, &mut now, &mut masses[0], coder);
             let expected = xyz(self.now[i]);
             code_point(&mut self.before[i], expected, mass, &mut before, &mut masses[1], coder);
