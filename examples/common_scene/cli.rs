@@ -38,8 +38,8 @@ impl SceneArgs {
         self.headless || self.animate.is_some()
     }
 
-    /// How finely paint is shown: at `level` at most. Pictures do not wait for levels that follow the distance, so theirs
-    /// stay.
+    /// How finely paint is shown: at `level` at most. Pictures do not wait for levels that follow the distance: theirs
+    /// stays.
     pub fn detail(&self, level: u32) -> Detail {
         let detail = Detail { level, ..Detail::default() };
         if self.pictures() { Detail { pixels: 0.0, ..detail } } else { detail }

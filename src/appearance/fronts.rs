@@ -109,14 +109,15 @@ impl Fronts {
         }
         for (slot, (part, changes)) in self.parts.iter_mut().zip(&mut self.changes).enumerate() {
             let vertices = wedges.slot(slot);
-            for (i, &h) in vertices.corners.iter().enumerate() {
-                if h == HalfEdgeId::NONE || !seen.moves.is_turned(vertices.film[i]) {
+            let own = vertices.corners.iter().zip(&vertices.film);
+            let places = part.positions.iter_mut().zip(&mut part.normals);
+            for (i, ((&h, &v), (position, normal))) in own.zip(places).enumerate() {
+                if h == HalfEdgeId::NONE || !seen.moves.is_turned(v) {
                     continue;
                 }
-                let v = vertices.film[i];
                 let turn = seen.frames.turn(v);
-                part.positions[i] = mesh.geometry.positions[v.index()].to_array();
-                part.normals[i] = turn.apply(attributes.normals[h.index()]).to_array();
+                *position = mesh.geometry.positions[v.index()].to_array();
+                *normal = turn.apply(attributes.normals[h.index()]).to_array();
                 if let Some(tangent) = part.tangents.get_mut(i) {
                     let rest = attributes.tangents[h.index()];
                     *tangent = turn.apply(rest.truncate()).extend(rest.w).to_array();

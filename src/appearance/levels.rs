@@ -18,8 +18,8 @@ use crate::{
     surface::{BuildError, Surface},
 };
 
-/// The prop's own surface under a film, sampled as finely as [`Detail::level`] says, from which the film can be shown at
-/// that level and all below.
+/// The prop's own surface under a film, sampled as finely as [`Detail::level`] says: with it the film can be shown at
+/// that level and at all below.
 ///
 /// It is cheap to clone, and needs neither the prop nor the appearance that it came from, so a film can be prepared at
 /// another level in the background.

@@ -13,15 +13,15 @@ use bevy::{
 };
 
 use super::{
-    canvas::{StainCanvas, StainCarrier, StainWriter},
+    canvas::StainCanvas,
     film_paint::FilmPaint,
-    level::LevelChange,
-    mesh::{PartSpace, new_mesh, patch_part, write_part},
+    mesh::{PartSpace, patch_part, write_part},
+    prepared::{FrontMesh, LevelChange, PreparedLevel, edge_at, front_writer, write_front},
 };
 use crate::{
     api::{diagnostics::CoatingTimings, display_cost::DisplayCost, stain_display::StainDisplay},
-    appearance::{Detail, DisplayChanges, FilmAppearance, shading::StainPart},
-    film::{FaceGrid, FilmMesh},
+    appearance::{Detail, DisplayChanges, FilmAppearance},
+    film::FilmMesh,
     fracture::FilmForces,
     mesh_reader::SlotAttributes,
     remesh::BuiltFilm,
@@ -259,68 +259,6 @@ pub(super) fn follow_films(
             });
         })
     });
-}
-
-/// Returns the mean distance between the vertices that show a film with edges of `film_edge` at `level`.
-fn edge_at(film_edge: f32, level: u32) -> f32 {
-    film_edge / (1u32 << level.min(FaceGrid::MOST)) as f32
-}
-
-/// Front of one primitive as a mesh that is not an asset yet.
-pub(super) struct FrontMesh {
-    mesh: Mesh,
-    canvas: StainCanvas,
-    /// Whether the mesh shows the part, and not a stand-in for one without triangles.
-    shown: bool,
-}
-
-/// Writes the front of a slot to a new mesh. `None` for a primitive of which nothing was left after cleaning: it keeps
-/// its mesh.
-fn write_front(
-    appearance: &FilmAppearance,
-    slot: usize,
-    attributes: SlotAttributes,
-    paint: &FilmPaint,
-    edge: f32,
-    space: PartSpace,
-) -> Option<FrontMesh> {
-    let part = appearance.front(slot)?;
-    let (mut mesh, canvas) = (new_mesh(), StainCanvas::new(part, front_writer(paint, edge)));
-    let shown = write_part(&mut mesh, part, attributes, space, &canvas);
-    Some(FrontMesh { mesh, canvas, shown })
-}
-
-/// Film as it was prepared at another level.
-pub(super) struct PreparedLevel {
-    appearance: FilmAppearance,
-    fronts: Vec<Option<FrontMesh>>,
-    paint: FilmPaint,
-}
-
-impl PreparedLevel {
-    /// Writes the meshes of `appearance`, for a film with edges of `film_edge`.
-    pub fn new(
-        appearance: FilmAppearance,
-        attributes: &[SlotAttributes],
-        paint: FilmPaint,
-        film_edge: f32,
-        space: PartSpace,
-    ) -> Self {
-        let edge = edge_at(film_edge, appearance.level());
-        let front = |(slot, &attributes)| write_front(&appearance, slot, attributes, &paint, edge, space);
-        let fronts = attributes.iter().enumerate().map(front).collect();
-        Self { appearance, fronts, paint }
-    }
-}
-
-/// Returns the settings with which the stains of fronts are written to their meshes.
-fn front_writer(paint: &FilmPaint, edge: f32) -> StainWriter<'_> {
-    let carrier = match paint.display {
-        StainDisplay::Material => StainCarrier::Attributes,
-        StainDisplay::VertexColor => StainCarrier::Colors,
-        StainDisplay::None => StainCarrier::Nothing,
-    };
-    StainWriter { part: StainPart::Film, paint, carrier, edge }
 }
 
 /// Writes the meshes of the films that changed.

@@ -10,11 +10,14 @@ use bevy::{
     },
     math::Vec3,
     mesh::Mesh,
-    tasks::{AsyncComputeTaskPool, Task, futures::check_ready},
+    tasks::{AsyncComputeTaskPool, futures::check_ready},
     transform::components::GlobalTransform,
 };
 
-use super::film_display::{FilmDisplay, PreparedLevel};
+use super::{
+    film_display::FilmDisplay,
+    prepared::{LevelChange, PreparedLevel},
+};
 use crate::{
     api::{
         coating::Coating,
@@ -30,12 +33,6 @@ use crate::{
 
 /// Largest number of films whose change of level begins in one frame: each film's state is copied for it.
 const BEGINNINGS: usize = 4;
-
-/// Change of level under way. Dropping it cancels it.
-pub(super) struct LevelChange {
-    level: u32,
-    task: Task<PreparedLevel>,
-}
 
 /// What decides how large things are in the image of a camera.
 struct View {

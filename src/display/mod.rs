@@ -33,6 +33,7 @@ mod part_handles;
 mod part_material;
 #[cfg(feature = "render")]
 mod parts;
+mod prepared;
 mod share;
 
 use bevy::{

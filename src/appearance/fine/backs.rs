@@ -4,7 +4,7 @@ use super::{
     base::Base,
     fronts::FineFronts,
     lanes::{LANES, spread},
-    rims::Rims,
+    rims::{Backside, Rims},
     vertex_frames::VertexFrames,
 };
 use crate::{
@@ -32,14 +32,6 @@ pub(in crate::appearance) struct FineBacks {
     new: Vec<FaceId>,
     /// Normals of the face that is being moved.
     normals: Vec<[f32; 3]>,
-}
-
-/// The back of one face.
-pub(super) struct Backside<'a> {
-    /// Thickness of the paint, against the normals of the film.
-    pub depth: f32,
-    /// Unit normal of the film at each point of the face, outwards as the prop has it.
-    pub normals: &'a [[f32; 3]],
 }
 
 impl FineBacks {

@@ -117,8 +117,8 @@ impl Base {
         f.index() * self.points + i
     }
 
-    /// Writes the triangles of a face whose vertices begin at `vertex`, from the index `index` on; with `flipped`, wound
-    /// the other way.
+    /// Writes the triangles of a face whose vertices begin at `vertex`, from the index `index` on; with `flipped`, the
+    /// other way round.
     pub(super) fn put_triangles(&self, part: &mut MeshPart, vertex: u32, index: u32, flipped: bool) {
         for (i, triangle) in self.grid.triangles().iter().enumerate() {
             part.put_triangle(index as usize + 3 * i, triangle.map(|point| vertex + point), flipped);

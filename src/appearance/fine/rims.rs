@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3A;
 
-use super::{backs::Backside, base::Base, fronts::FineFronts, unit};
+use super::{base::Base, fronts::FineFronts, unit};
 use crate::{
     appearance::{
         blocks::{Block, Blocks},
@@ -18,6 +18,14 @@ use crate::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rims {
     blocks: Blocks,
+}
+
+/// The back of one face.
+pub(super) struct Backside<'a> {
+    /// Thickness of the paint, against the normals of the film.
+    pub depth: f32,
+    /// Unit normal of the film at each point of the face, outwards as the prop has it.
+    pub normals: &'a [[f32; 3]],
 }
 
 impl Rims {
