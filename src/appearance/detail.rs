@@ -58,8 +58,8 @@ impl Detail {
         faces << (2 * self.level.min(FaceGrid::MOST))
     }
 
-    /// Returns the level at which to show a film that is shown at `level` now, with edges of `edge` pixels in the nearest
-    /// image.
+    /// Returns the level at which to show a film that is shown at `level` now, with edges of `edge` pixels in the
+    /// nearest image.
     ///
     /// A chord of length e across a curl of radius r lies e^2 / 8r beside it, and each level halves e.
     ///
