@@ -192,6 +192,7 @@ impl Soak {
     fn clone_prop(&mut self, root: Entity) {
         let world = self.app.world();
         let steps = world.get::<FilmClock>(root).map(|clock| clock.steps);
+        let owed = self.oracle.owed(root, steps.unwrap_or_default());
         let is_sound = world.get::<Coating>(root).is_some_and(|coating| coating.validate().is_ok());
         if !is_sound || world.get::<Trouble>(root).is_some() || self.oracle.may_be_rebuilt(root) {
             return;
@@ -201,7 +202,7 @@ impl Soak {
         });
         self.rebuilt(clone);
         if let Some(steps) = steps {
-            self.app.world_mut().entity_mut(clone).insert(ClonedAt { steps });
+            self.app.world_mut().entity_mut(clone).insert(ClonedAt { steps, owed });
         }
     }
 

@@ -27,6 +27,8 @@ struct Expected {
     root: Entity,
     /// Steps that the clock and requests have given, with the fraction.
     steps: f64,
+    /// Steps that it may take besides, as it is a clone of a film that was owed them.
+    ahead: f64,
     /// Last valid rate of the coating.
     rate: f64,
     /// Whether the film owes steps because it waited for rays.
@@ -38,6 +40,11 @@ struct Expected {
 impl Oracle {
     pub fn has_films(&self, root: Entity) -> bool {
         self.films.values().any(|film| film.root == root)
+    }
+
+    /// Returns the steps that the film on `root`, which has taken `steps`, is owed.
+    pub fn owed(&self, root: Entity, steps: u64) -> f64 {
+        self.films.get(&root).map_or(0.0, |film| (film.steps + film.ahead - steps as f64).max(0.0))
     }
 
     pub fn allow_rebuilding(&mut self, root: Entity) {
@@ -88,7 +95,8 @@ impl Oracle {
         self.films.retain(|&film, _| app.world().get::<FilmMesh>(film).is_some());
         for (film, expected) in &mut self.films {
             let steps = app.world().get::<FilmClock>(*film).expect("a clock").steps as f64;
-            assert!(steps <= expected.steps + 1.001, "film {film} took {steps} steps: {expected:?}");
+            let most = expected.steps + expected.ahead;
+            assert!(steps <= most + 1.001, "film {film} took {steps} steps: {expected:?}");
             let behind = steps < expected.steps - 1.001;
             expected.waits |= behind && casting;
             assert!(
@@ -112,12 +120,14 @@ impl Oracle {
             if self.films.contains_key(&film) {
                 continue;
             }
-            if let Some(cloned) = app.world().get::<ClonedAt>(root).filter(|_| film == root) {
+            let cloned = app.world().get::<ClonedAt>(root).filter(|_| film == root);
+            if let Some(cloned) = cloned {
                 assert!(clock.steps >= cloned.steps, "a clone is as old as its original");
             }
+            let ahead = cloned.map_or(0.0, |cloned| cloned.owed);
             let rate = app.world().get::<Coating>(root).map_or(0.0, |coating| coating.rate);
             let rate = if (0.0..=1000.0).contains(&rate) { rate } else { 1.0 };
-            let expected = Expected { root, steps: clock.steps as f64, rate, waits: false, runs: false };
+            let expected = Expected { root, steps: clock.steps as f64, ahead, rate, waits: false, runs: false };
             self.films.insert(film, expected);
         }
     }

@@ -51,6 +51,8 @@ pub enum Trouble {
 #[derive(Component, Clone, Copy)]
 pub struct ClonedAt {
     pub steps: u64,
+    /// Steps that the original was owed, as it had to wait. The clone is owed them, too.
+    pub owed: f64,
 }
 
 impl Palette {
