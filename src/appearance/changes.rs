@@ -29,7 +29,7 @@ use crate::{film::FilmChanges, stain::StainFields};
 pub struct DisplayChanges {
     /// Whether vertices may have moved.
     pub moved: bool,
-    /// Whether edges tore or faces were removed: vertices of fronts and backs are numbered afresh.
+    /// Whether edges tore or faces were removed: corners follow other vertices, and triangles are gone.
     pub topology: bool,
     /// Whether vertices separated or faces were removed: other backs and other parts of the metal can be seen.
     pub exposure: bool,
