@@ -30,22 +30,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod backs;
 mod blocks;
 mod changes;
 mod coarse;
 mod corners;
 mod detail;
-mod differences;
 mod face_slots;
 mod fine;
-mod frames;
-mod fronts;
 mod in_slots;
 mod levels;
-mod looks;
-mod metal;
-mod moves;
 mod part;
 mod part_changes;
 mod seen;
@@ -53,7 +46,6 @@ pub mod shading;
 #[cfg(test)]
 mod tests;
 mod turn;
-mod wedges;
 
 pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;

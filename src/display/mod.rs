@@ -9,8 +9,8 @@
 //!   They have the sides and holes of the primitive's material, its layers, shadow flags and visibility. Without that
 //!   feature there are no materials for them, and they are left out.
 //!
-//! Films are shown at the level that their distance asks for ([`level`]). Assets are changed only in frames in which the
-//! film changed, and then only where it did ([`mesh`]).
+//! Films are shown at the level that their distance asks for ([`level`]). Assets are changed only in frames in which
+//! the film changed, and then only where it did ([`mesh`]).
 
 mod canvas;
 #[cfg(feature = "render")]

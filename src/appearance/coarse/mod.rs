@@ -1,12 +1,18 @@
 //! The film shown as it is simulated: its own triangles.
 
+mod backs;
+mod fronts;
+mod metal;
+mod wedges;
+
 use std::sync::Arc;
 
-use super::{
-    FILM_THICKNESS, METAL_DEPTH, backs::Backs, corners::CornerAttributes, face_slots::FaceSlots, fronts::Fronts,
-    metal::Metal, seen::Seen, wedges::Wedges,
-};
+use super::{FILM_THICKNESS, METAL_DEPTH, corners::CornerAttributes, face_slots::FaceSlots, seen::Seen};
 use crate::{film::FilmMesh, fracture::FilmForces};
+use backs::Backs;
+use fronts::Fronts;
+use metal::Metal;
+use wedges::Wedges;
 
 /// Fronts, backs and metal of one film, and the lookups that bring them up to date.
 #[derive(Clone, Debug)]

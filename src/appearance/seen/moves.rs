@@ -6,7 +6,7 @@ use crate::film::{FilmMesh, VertexId};
 
 /// Vertices that moved, and those whose directions depend on them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Moves {
+pub(in crate::appearance) struct Moves {
     /// Positions at the last update.
     seen: Vec<Vec3>,
     /// Whether each vertex moved.

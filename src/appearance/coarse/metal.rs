@@ -1,13 +1,13 @@
 //! Builds the bare metal: the faces of the film at rest where it has separated or is gone, moved a little inwards.
 
-use super::{
+use super::wedges::Wedges;
+use crate::appearance::{
     blocks::Blocks,
     corners::CornerAttributes,
     face_slots::{FaceSlots, has_separated},
     part::{MeshPart, set},
     part_changes::PartChanges,
     seen::Seen,
-    wedges::Wedges,
 };
 use crate::{
     film::{FaceId, FilmMesh, HalfEdgeId},
@@ -19,7 +19,7 @@ const NONE: u32 = u32::MAX;
 
 /// Bare metal of all slots.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Metal {
+pub(in crate::appearance) struct Metal {
     /// Vertices and triangles of the metal in each slot.
     pub parts: Vec<MeshPart>,
     pub changes: Vec<PartChanges>,

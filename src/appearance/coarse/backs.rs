@@ -3,14 +3,13 @@
 
 use bevy_math::Vec3;
 
-use super::{
+use super::{fronts::Fronts, wedges::Wedges};
+use crate::appearance::{
     blocks::Blocks,
     face_slots::{FaceSlots, has_separated},
-    fronts::Fronts,
     part::MeshPart,
     part_changes::PartChanges,
     seen::Seen,
-    wedges::Wedges,
 };
 use crate::{
     film::{FaceId, FilmMesh},
@@ -22,7 +21,7 @@ const NONE: u32 = u32::MAX;
 
 /// Backs of all slots.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Backs {
+pub(in crate::appearance) struct Backs {
     /// Vertices and triangles of the backs in each slot.
     pub parts: Vec<MeshPart>,
     pub changes: Vec<PartChanges>,

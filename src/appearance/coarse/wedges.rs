@@ -1,6 +1,6 @@
 //! Merges corners at one vertex that have the same attributes into one mesh vertex, called a wedge.
 
-use super::{corners::CornerAttributes, differences::Differences, face_slots::FaceSlots};
+use crate::appearance::{corners::CornerAttributes, face_slots::FaceSlots, seen::differences::Differences};
 use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
 
 /// Largest difference between attributes that count as the same. It is far too small to be seen, and larger than the
@@ -15,7 +15,7 @@ const NONE: u32 = u32::MAX;
 /// A vertex keeps its number while any corner stands for it, however the film tears. One that nothing stands for any
 /// more is free for the next that comes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Wedges {
+pub(in crate::appearance) struct Wedges {
     /// Wedge of each corner at rest. Corners of different vertices, slots or attributes have different wedges.
     rest: Vec<u32>,
     /// Number of wedges at rest.
@@ -32,7 +32,7 @@ pub(super) struct Wedges {
 
 /// Vertices of one slot's front part.
 #[derive(Clone, Debug, Default)]
-pub(super) struct SlotVertices {
+pub(in crate::appearance) struct SlotVertices {
     /// A corner that stands for each vertex; `NONE` where there is none.
     pub corners: Vec<HalfEdgeId>,
     /// Vertex of the film that each vertex follows.

@@ -12,7 +12,7 @@ const CHUNK: usize = 64;
 
 /// What was seen, and what has become of it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Differences {
+pub(in crate::appearance) struct Differences {
     /// Start vertex of each half-edge.
     origins: Vec<VertexId>,
     /// Whether the edge of each half-edge was torn.

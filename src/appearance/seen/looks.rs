@@ -1,11 +1,12 @@
 //! Follows the stains of each vertex of the film and of the metal as they are shown.
 
-use super::{differences::Differences, part::vertex_stains};
+use super::differences::Differences;
+use crate::appearance::part::vertex_stains;
 use crate::{film::FilmMesh, stain::StainFields};
 
 /// Entry of [`MeshPart::stains`](super::MeshPart::stains) for each vertex, and whether it is another than before.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Looks {
+pub(in crate::appearance) struct Looks {
     pub film: Look,
     /// By original vertices.
     pub metal: Look,
@@ -13,7 +14,7 @@ pub(super) struct Looks {
 
 /// Stains of one layer.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Look {
+pub(in crate::appearance) struct Look {
     pub stains: Vec<[f32; 4]>,
     changed: Vec<bool>,
     /// Whether any vertex has changed.

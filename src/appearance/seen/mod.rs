@@ -1,7 +1,16 @@
 //! Keeps what an appearance last saw of its film, and finds what is different.
 
-use super::{changes::DisplayChanges, differences::Differences, frames::Frames, looks::Looks, moves::Moves};
+pub(super) mod differences;
+mod frames;
+mod looks;
+mod moves;
+
+use super::changes::DisplayChanges;
 use crate::{film::FilmMesh, fracture::FilmForces, stain::StainFields};
+use differences::Differences;
+use frames::Frames;
+use looks::Looks;
+use moves::Moves;
 
 /// What was last seen of a film, and what has changed since.
 #[derive(Clone, Debug, Default)]

@@ -2,11 +2,8 @@
 
 use bevy_math::Vec3;
 
-use super::{
-    differences::Differences,
-    moves::Moves,
-    turn::{Turn, unit},
-};
+use super::{differences::Differences, moves::Moves};
+use crate::appearance::turn::{Turn, unit};
 use crate::film::{FilmMesh, Topology, VertexId};
 
 /// Rotation of each vertex since rest: the smallest between the normals of its faces then and now.
@@ -14,7 +11,7 @@ use crate::film::{FilmMesh, Topology, VertexId};
 /// Both normals are means over the faces that the vertex has now, so a film at rest has not turned however it has torn.
 /// What lies on a vertex (the prop's own normals and tangents) turns with it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Frames {
+pub(in crate::appearance) struct Frames {
     /// Unit normal of each vertex at rest over the faces that it has now.
     rest: Vec<Vec3>,
     /// Sum of the normals of the faces around each vertex, as long as twice their areas. Only those of the vertices

@@ -1,19 +1,19 @@
 //! Builds the fronts of the film: its live faces, with the prop's own attributes at their corners.
 
-use super::{
+use super::wedges::Wedges;
+use crate::appearance::{
     blocks::Blocks,
     corners::CornerAttributes,
     face_slots::FaceSlots,
     part::{MeshPart, set},
     part_changes::PartChanges,
     seen::Seen,
-    wedges::Wedges,
 };
 use crate::film::{FilmMesh, HalfEdgeId};
 
 /// Fronts of all slots.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Fronts {
+pub(in crate::appearance) struct Fronts {
     /// Vertices and triangles of the front of each slot.
     pub parts: Vec<MeshPart>,
     pub changes: Vec<PartChanges>,
