@@ -142,6 +142,8 @@ pub mod stain;
 #[cfg(feature = "plugin")]
 mod stepping;
 pub mod surface;
+#[cfg(feature = "plugin")]
+mod timeline;
 
 #[cfg(feature = "plugin")]
 pub use api::{
@@ -152,12 +154,14 @@ pub use api::{
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,
     film_pace::FilmPace,
+    history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
-    links::{CoatedBy, CoatingPart},
-    messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+    links::{CoatedBy, CoatedMesh, CoatingPart},
+    messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
+    snapshot::{CoatingSnapshot, SaveError, SavedFilm},
     stain_display::StainDisplay,
     status::CoatingStatus,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
@@ -174,6 +178,8 @@ pub use plugin::CoatingWeatheringPlugin;
 pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
 #[cfg(feature = "plugin")]
 pub use stepping::FilmEdit;
+#[cfg(feature = "plugin")]
+pub use timeline::{CoatingCommands, FilmHistory};
 
 /// Compiles the snippets of the README.
 #[cfg(all(doctest, feature = "plugin"))]

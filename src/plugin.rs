@@ -13,7 +13,7 @@ use crate::{
         budget::CoatingBudget,
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
-        messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+        messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
         status::CoatingStatus,
         system_sets::CoatingAdvance,
         unit::CoatingUnit,
@@ -22,7 +22,7 @@ use crate::{
     attach::add_attachment,
     display::FilmDisplayPlugin,
     settings::asset::CoatingSettingsPlugin,
-    stepping,
+    stepping, timeline,
 };
 
 /// Plugin that ages the paint of every entity with a [`Coating`](crate::api::coating::Coating).
@@ -86,12 +86,15 @@ impl Plugin for CoatingWeatheringPlugin {
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
             .add_message::<FirstCrack>()
-            .add_message::<PieceFallen>();
+            .add_message::<PieceFallen>()
+            .add_message::<AgeReached>()
+            .add_message::<RestoreFailed>();
         diagnostics::add_diagnostics(app);
         stepping::add_step_schedule(app);
         add_attachment(app);
         let checks = (stepping::check_weather, stepping::check_clock, stepping::follow_coatings);
-        app.add_systems(self.schedule, (checks, stepping::advance).chain().in_set(CoatingAdvance));
+        let travels = (timeline::follow_histories, timeline::hand_out_ages, timeline::travel).chain();
+        app.add_systems(self.schedule, (checks, travels, stepping::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(FilmDisplayPlugin);
     }
 }

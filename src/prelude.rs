@@ -10,11 +10,13 @@ pub use crate::{
         coating::{Coating, SettingsSource},
         error::{CoatingError, CoatingFault},
         exclude::CoatingExclude,
+        history::CoatingHistory,
         links::CoatedBy,
-        messages::{FilmFailed, FilmReady, FirstCrack, PieceFallen},
+        messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
         outline::{PropMask, PropOutline},
         seed::CoatingSeed,
         shelter::{RainShelter, Shelter},
+        snapshot::CoatingSnapshot,
         stain_display::StainDisplay,
         status::CoatingStatus,
         system_sets::{CoatingStep, CoatingSystems},
@@ -22,6 +24,7 @@ pub use crate::{
         weather::CoatingWeather,
     },
     plugin::CoatingWeatheringPlugin,
+    timeline::CoatingCommands,
 };
 pub use crate::{
     appearance::{

@@ -34,6 +34,8 @@ pub struct FilmPace {
     pub(crate) planned: u64,
     /// Whether the film has steps to take, but waits until its exposure to rain and sun is known.
     pub(crate) held: bool,
+    /// Whether the film is on its way to another age, and takes no steps.
+    pub(crate) travels: bool,
     /// Whether the film takes the step that is under way.
     pub(crate) due: bool,
     /// Whether the first crack has been reported.
@@ -60,6 +62,7 @@ impl FilmPace {
             account: StepAccount::default(),
             planned: 0,
             held: false,
+            travels: false,
             due: false,
             cracked,
             bounds: (Vec3::ZERO, 0.0),

@@ -55,6 +55,14 @@ pub struct CoatedBy(pub Entity);
 #[reflect(Component, Default, Debug, Clone)]
 pub struct CoatingPart;
 
+/// Handle of the prop's own mesh, on a mesh entity that shows a film.
+///
+/// When the coating is removed the entity gets this mesh back. It is saved with a scene, so that a prop which is loaded
+/// from one is coated anew, from its own mesh, and not from the one that showed its film.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Default, Debug, Clone, PartialEq)]
+pub struct CoatedMesh(pub Handle<Mesh>);
+
 /// Origin of a film: its meshes and the fields with which it was built.
 #[derive(Component, Clone, Debug)]
 #[component(clone_behavior = Ignore)]

@@ -1,12 +1,14 @@
 //! Defines the messages that the plugin sends.
 
+use std::sync::Arc;
+
 use bevy::{
     ecs::{entity::Entity, message::Message},
     math::Vec3,
 };
 
 use super::error::CoatingError;
-use crate::surface::BuildWarning;
+use crate::{snapshot::SnapshotError, surface::BuildWarning};
 
 /// Message that a film has been built and its prop shows it.
 ///
@@ -143,4 +145,60 @@ pub struct PieceFallen {
     pub size: f32,
     /// Number of triangles of the piece.
     pub faces: u32,
+}
+
+/// Message that a film has come to the age to which it was [sought](crate::sim::FilmClock::seek), or to a saved state
+/// that was put back. It is shown from this frame on.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn announce(mut reached: MessageReader<AgeReached>) {
+///     for film in reached.read() {
+///         info!("{} is {:.2} old now", film.entity, film.age);
+///     }
+/// }
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, announce);
+/// app.update();
+/// ```
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
+pub struct AgeReached {
+    /// Entity of the film.
+    pub entity: Entity,
+    /// Entity with the film's `Coating`.
+    pub root: Entity,
+    /// Age of the film now.
+    pub age: f64,
+}
+
+/// Message that a saved state could not be put back. The film stays as it was, or begins at its start age if it has
+/// only been built. The error is logged, too.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn complain(mut failed: MessageReader<RestoreFailed>) {
+///     for film in failed.read() {
+///         info!("{} is not as it was saved: {}", film.entity, film.error);
+///     }
+/// }
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, complain);
+/// app.update();
+/// ```
+#[derive(Message, Clone, Debug)]
+pub struct RestoreFailed {
+    /// Entity of the film.
+    pub entity: Entity,
+    /// Entity with the film's `Coating`.
+    pub root: Entity,
+    /// Reason, with the way out.
+    pub error: Arc<SnapshotError>,
 }

@@ -42,6 +42,8 @@ pub struct CoatingStatus {
     /// Number of films that have steps to take, but wait for rays to be cast against their
     /// [shelters](super::shelter::Shelter).
     pub casting: usize,
+    /// Number of films that are on their way to another age, or to a saved state.
+    pub seeking: usize,
     /// Age of the youngest film; 0 without films.
     pub youngest: f64,
     /// Age of the oldest film; 0 without films.

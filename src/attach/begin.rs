@@ -20,7 +20,6 @@ use super::{
     build::{FilmBuild, FilmOrder, build_film},
     finish::{keep_old, refuse},
     group::group_of,
-    hierarchy::path_to,
     order::{FilmInputs, inputs_of},
     share::{area_of_film, area_of_slots, targets_of},
     suspects::suspects_of,
@@ -32,9 +31,11 @@ use crate::{
         error::CoatingFault,
         links::{AwaitingFilm, CoatedBy, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
         seed::CoatingSeed,
+        snapshot::CoatingSnapshot,
     },
     display::FilmPaint,
     sim::{film_seed, place_seed},
+    timeline::{path_to, written_path},
 };
 
 /// Query of the films that are ready or being built.
@@ -196,15 +197,22 @@ fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &C
             None => return Ok(None),
         }
     }
-    inputs_of(world, candidate.film, root, &candidate.slots, coating)
+    let inputs = inputs_of(world, candidate.film, root, &candidate.slots, coating)?;
+    // A film that is built again begins anew.
+    let snapshot = world.get::<CoatingSnapshot>(root).filter(|_| !candidate.renews);
+    Ok(inputs.map(|inputs| {
+        let saved = snapshot.and_then(|snapshot| snapshot.film_at(&written_path(world, root, candidate.film)));
+        FilmInputs { saved: saved.cloned(), ..inputs }
+    }))
 }
 
-/// Returns the seed that was drawn for the coating on `root`, or draws it from its place.
+/// Returns the seed that was drawn for the coating on `root`, also before it was saved, or draws it from its place.
 fn seed_of_place(world: &World, commands: &mut Commands, root: Entity) -> u64 {
     world.get::<CoatingSeed>(root).map_or_else(
         || {
             let place = world.get::<GlobalTransform>(root).copied().unwrap_or_default().translation();
-            let seed = CoatingSeed(place_seed(place));
+            let saved = world.get::<CoatingSnapshot>(root).map(|snapshot| snapshot.seed);
+            let seed = CoatingSeed(saved.unwrap_or_else(|| place_seed(place)));
             commands.entity(root).try_insert(seed);
             seed.0
         },

@@ -1,29 +1,28 @@
 //! Builds a film in the background: from the prop's meshes to a film of its start age.
 
-use std::{sync::Arc, time::Duration};
+use std::sync::Arc;
 
 use bevy::{
     ecs::{component::Component, entity::Entity},
     math::Vec3,
-    tasks::{Task, futures_lite::future::yield_now},
+    tasks::Task,
 };
-use web_time::Instant;
 
 use super::order::FilmInputs;
 use crate::{
     api::{coating::FilmKey, error::CoatingFault},
     display::{FilmDisplay, FilmPaint},
+    history::History,
     mesh_reader::surface_of,
     remesh::{FilmTarget, build_film as remesh},
     settings::CoatingSettings,
     shelter::{CastOrder, FilmShelter},
     sim::{FilmState, coarser_than_grain},
-    stain::exposure::ExposedSurface,
+    snapshot::SnapshotError,
+    stain::{Environment, exposure::ExposedSurface},
     surface::{BuildError, BuildWarning},
+    timeline::{FilmHistory, Turn},
 };
-
-/// Time after which a build lets others go on. Most builds are done before.
-const TURN: Duration = Duration::from_millis(50);
 
 /// Film that is being built, on the film's entity. Dropping it cancels the build at its next rest.
 #[derive(Component)]
@@ -59,6 +58,10 @@ pub(super) struct FilmOrder {
 /// Film that is ready to be put on its prop.
 pub(crate) struct FilmReadiness {
     pub film: FilmState,
+    /// Past of the film, if it is kept.
+    pub history: Option<FilmHistory>,
+    /// Reason why a saved state was not put back.
+    pub refused: Option<Arc<SnapshotError>>,
     pub settings: Arc<CoatingSettings>,
     pub warnings: Vec<BuildWarning>,
     pub display: FilmDisplay,
@@ -67,14 +70,14 @@ pub(crate) struct FilmReadiness {
     pub origin: Vec3,
 }
 
-/// Builds a film, ages it to its start age and writes its display meshes. Whatever takes longer than a [`TURN`] rests
-/// in between, so that one heavy build does not hold up all others, and ends where nobody wants it any more.
+/// Builds a film, ages it to its start age or puts its saved state back, and writes its display meshes. Whatever takes
+/// long [rests](Turn) in between, so that one heavy build does not hold up all others, and ends where nobody wants it any more.
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
     let FilmOrder { inputs, target, seed, paint } = order;
-    let FilmInputs { meshes, key, settings, quality, scale, past, shelter, .. } = inputs;
+    let FilmInputs { meshes, key, settings, quality, scale, past, shelter, saved, history, .. } = inputs;
     let mut turn = Turn::begin();
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
@@ -91,13 +94,66 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     turn.rest().await;
     let shelter = shelter.map(|order| cast(order.shifted(origin), &mut film)).unwrap_or_default();
     turn.rest().await;
-    let steps = film.clock.step_at(key.start_age);
-    while film.clock.steps < steps {
-        film.step(&settings, &past);
+    let restored = saved.map(|saved| film.restore(&saved).map_err(Arc::new));
+    let is_fresh = !matches!(restored, Some(Ok(())));
+    let mut life = Life::begin(film, &settings, past, history);
+    let steps = life.film().clock.step_at(key.start_age);
+    while is_fresh && life.film().clock.steps < steps {
+        life.step(&settings, &past);
         turn.rest().await;
     }
-    display.prepare(&film);
-    Ok(Box::new(FilmReadiness { film, settings, warnings: built.warnings, display, shelter, origin }))
+    display.prepare(life.film());
+    let (film, history) = life.end();
+    let warnings = built.warnings;
+    let refused = restored.and_then(Result::err);
+    Ok(Box::new(FilmReadiness { film, history, refused, settings, warnings, display, shelter, origin }))
+}
+
+/// Film that is aged to its start age, with its past where that is to be kept.
+enum Life {
+    Forgotten(FilmState),
+    Kept(Box<History>),
+}
+
+impl Life {
+    /// Begins with `film`. With `history`, its past is kept in so many bytes of keyframes.
+    fn begin(film: FilmState, settings: &CoatingSettings, environment: Environment, history: Option<usize>) -> Self {
+        let Some(bytes) = history else { return Self::Forgotten(film) };
+        match History::new(film.clone(), settings.clone(), environment) {
+            Ok(mut history) => {
+                history.set_keyframe_bytes(bytes);
+                Self::Kept(Box::new(history))
+            }
+            // No film that was just built is like that; it goes on without a past.
+            Err(_) => Self::Forgotten(film),
+        }
+    }
+
+    fn film(&self) -> &FilmState {
+        match self {
+            Self::Forgotten(film) => film,
+            Self::Kept(history) => history.film(),
+        }
+    }
+
+    fn step(&mut self, settings: &CoatingSettings, environment: &Environment) {
+        match self {
+            Self::Forgotten(film) => film.step(settings, environment),
+            // The step is taken whether or not it can be kept.
+            Self::Kept(history) => history.step().unwrap_or_default(),
+        }
+    }
+
+    /// Returns the film and its past.
+    fn end(self) -> (FilmState, Option<FilmHistory>) {
+        match self {
+            Self::Forgotten(film) => (film, None),
+            Self::Kept(history) => {
+                let (history, film) = FilmHistory::of(*history);
+                (film, Some(history))
+            }
+        }
+    }
 }
 
 /// Casts rays for a fresh film and stores its exposure to rain and sun.
@@ -108,27 +164,10 @@ fn cast(mut order: CastOrder, film: &mut FilmState) -> FilmShelter {
     FilmShelter::of_built(surface, order.key)
 }
 
-/// Turn of a build on its thread.
-struct Turn {
-    began: Instant,
-}
-
-impl Turn {
-    fn begin() -> Self {
-        Self { began: Instant::now() }
-    }
-
-    /// Lets other tasks go on if the turn is over. A task that nobody wants any more ends here.
-    async fn rest(&mut self) {
-        if self.began.elapsed() >= TURN {
-            yield_now().await;
-            self.began = Instant::now();
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::time::{Duration, Instant};
+
     use bevy::{
         math::primitives::Cuboid,
         mesh::Mesh,
@@ -136,7 +175,7 @@ mod tests {
     };
 
     use super::*;
-    use crate::{api::coating::Coating, deform::SolverQuality, stain::Environment};
+    use crate::{api::coating::Coating, deform::SolverQuality};
 
     /// Order for a cuboid of `start_age` in a hundred thousand steps an age.
     fn order(start_age: f64, settings: &Arc<CoatingSettings>) -> FilmOrder {
@@ -150,6 +189,8 @@ mod tests {
             metres_per_unit: 1.0,
             past: Environment::default(),
             shelter: None,
+            saved: None,
+            history: None,
         };
         let paint = FilmPaint::new(&coating, 0, Vec3::ZERO);
         FilmOrder { inputs, target: FilmTarget::Triangles(500), seed: 0, paint }

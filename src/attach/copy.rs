@@ -17,7 +17,7 @@ use super::{build::FilmBuild, detach::hide_slot, hierarchy::Coatings};
 use crate::{
     api::{
         film_pace::FilmPace,
-        links::{CoatedBy, CoatingPart, FilmSlot, FilmSource},
+        links::{CoatedBy, CoatedMesh, CoatingPart, FilmSlot, FilmSource},
         messages::FilmReady,
     },
     appearance::DisplayChanges,
@@ -28,6 +28,7 @@ use crate::{
     shelter::FilmShelter,
     sim::{FilmClock, StepScratch},
     stain::StainFields,
+    timeline::FilmHistory,
 };
 
 /// Clone of a mesh that has a film.
@@ -124,6 +125,7 @@ fn place_of(
 fn restore_clone(world: &mut World, mesh: Entity) {
     let Ok(mut clone) = world.get_entity_mut(mesh) else { return };
     let Some(slot) = clone.take::<FilmSlot>() else { return };
+    clone.remove::<CoatedMesh>();
     if let Some(mut shown) = clone.get_mut::<Mesh3d>() {
         if slot.display_mesh.as_ref() == Some(&shown.0) {
             shown.0 = slot.original;
@@ -160,6 +162,7 @@ fn copy_film(world: &mut World, group: &[Copied]) {
     }
     let slots = source.slots.clone();
     let film_parts = (mesh.clone(), forces.clone(), constraints.clone(), stains.clone(), *clock, changes.clone());
+    let history = original.get::<FilmHistory>().map(FilmHistory::copy);
     let scratch = scratch.clone();
     let pace = pace.clone();
     let (shown, shelter) = (*shown, FilmShelter { choice: shelter.choice, ..FilmShelter::default() });
@@ -173,10 +176,14 @@ fn copy_film(world: &mut World, group: &[Copied]) {
         let original = mesh.0.clone();
         let handle = handle.clone().unwrap_or_else(|| original.clone());
         mesh.0 = handle.clone();
-        entity.insert(FilmSlot { film, original, display_mesh: Some(handle) });
+        let own = CoatedMesh(original.clone());
+        entity.insert((own, FilmSlot { film, original, display_mesh: Some(handle) }));
     }
     let Ok(mut entity) = world.get_entity_mut(film) else { return };
     entity.insert(film_parts).insert((scratch, pace, shown, shelter, source, display, CoatedBy(root)));
+    if let Some(history) = history {
+        entity.insert(history);
+    }
     for (number, &slot) in slots.iter().enumerate() {
         if slot == Entity::PLACEHOLDER {
             hide_slot(world, film, number);

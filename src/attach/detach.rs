@@ -19,7 +19,10 @@ use crate::{
     api::{
         coating::Coating,
         film_pace::FilmPace,
-        links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone},
+        links::{
+            AwaitingFilm, CoatedBy, CoatedMesh, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone,
+        },
+        snapshot::CoatingSnapshot,
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -29,12 +32,14 @@ use crate::{
     shelter::FilmShelter,
     sim::{FilmClock, StepScratch},
     stain::StainFields,
+    timeline::{AgeWish, FilmHistory, FilmJourney, FilmWish},
 };
 
 /// Components that the plugin puts on the entity of a film.
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
     (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmOutdated, FilmBuild, FilmDisplay),
+    (FilmHistory, FilmJourney, FilmWish),
 );
 
 /// Takes off the film on entity `film`, whether it is ready or being built. Its meshes are marked as changed, so that
@@ -78,6 +83,7 @@ fn detach_now(world: &mut World, film: Entity) {
 fn restore_mesh(world: &mut World, slot: Entity) {
     let Ok(mut leaf) = world.get_entity_mut(slot) else { return };
     let Some(FilmSlot { original, display_mesh, .. }) = leaf.take::<FilmSlot>() else { return };
+    leaf.remove::<CoatedMesh>();
     if let Some(mut mesh) = leaf.get_mut::<Mesh3d>() {
         // A mesh that the game has put there meanwhile stays.
         if display_mesh.is_some_and(|display_mesh| mesh.0 == display_mesh) {
@@ -154,6 +160,8 @@ pub(super) fn on_coating_removed(
     >,
 ) {
     let root = removed.entity;
+    // Whoever paints it afresh does not mean the old paint.
+    commands.entity(root).try_remove::<(CoatingSnapshot, AgeWish)>();
     for (film, coated_by) in &films {
         if coated_by.0 == root {
             detach_film(&mut commands, film);

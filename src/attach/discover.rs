@@ -21,7 +21,8 @@ use crate::api::{
     coating::Coating,
     exclude::CoatingExclude,
     links::{
-        AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey,
+        AwaitingFilm, CoatedBy, CoatedMesh, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone,
+        RefusedKey,
     },
 };
 
@@ -38,6 +39,16 @@ type Meshes<'w, 's> = Query<
     ),
     Without<CoatingPart>,
 >;
+
+/// Gives props that come from a saved scene their own meshes back: there they have the meshes that showed their films.
+pub(super) fn find_saved(
+    mut commands: Commands,
+    saved: Query<(Entity, &CoatedMesh), (Added<CoatedMesh>, Without<FilmSlot>)>,
+) {
+    for (entity, own) in &saved {
+        commands.entity(entity).try_remove::<CoatedMesh>().try_insert(Mesh3d(own.0.clone()));
+    }
+}
 
 /// Checks every mesh whose handle, place in the hierarchy or coating changed: marks it as awaiting a film, or takes it
 /// out of its film.

@@ -9,7 +9,7 @@ use bevy::{
         system::{Commands, Query, ResMut},
         world::World,
     },
-    log::error,
+    log::{error, warn},
     mesh::{Mesh, Mesh3d},
     tasks::futures::check_ready,
 };
@@ -24,8 +24,10 @@ use crate::{
         coating::{Coating, FilmKey},
         error::{CoatingError, CoatingFault},
         film_pace::FilmPace,
-        links::{AwaitingFilm, CoatedBy, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey},
-        messages::{FilmFailed, FilmReady},
+        links::{
+            AwaitingFilm, CoatedBy, CoatedMesh, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey,
+        },
+        messages::{FilmFailed, FilmReady, RestoreFailed},
     },
     appearance::DisplayChanges,
     sim::FilmState,
@@ -88,7 +90,7 @@ fn put_on(
     slots: &Query<(&Mesh3d, &FilmSlot)>,
     assets: &mut Assets<Mesh>,
 ) {
-    let FilmReadiness { film: state, settings, warnings, mut display, mut shelter, origin } = ready;
+    let FilmReadiness { film: state, history, refused, settings, warnings, mut display, mut shelter, origin } = ready;
     let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
     let triangles = mesh.topology.face_count();
     let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
@@ -101,8 +103,9 @@ fn put_on(
         let Ok((_, claim)) = slots.get(slot) else { continue };
         // A primitive of which no face was left keeps its own mesh.
         let handle = handle.unwrap_or_else(|| claim.original.clone());
+        let own = CoatedMesh(claim.original.clone());
         let claim = FilmSlot { display_mesh: Some(handle.clone()), ..claim.clone() };
-        commands.entity(slot).try_remove::<FilmRefused>().try_insert((Mesh3d(handle), claim));
+        commands.entity(slot).try_remove::<FilmRefused>().try_insert((Mesh3d(handle), own, claim));
     }
     let FilmBuild { root, key, seed, scale, metres_per_unit, area, .. } = *build;
     let slots = std::mem::take(&mut build.slots);
@@ -114,6 +117,13 @@ fn put_on(
         .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
         .try_insert((pace, shelter, DisplayChanges::default(), source, display))
         .try_insert(CoatedBy(root));
+    if let Some(history) = history {
+        commands.entity(film).try_insert(history);
+    }
+    if let Some(error) = refused {
+        warn!("film {film} is not as it was saved, and begins at its start age: {error}");
+        commands.write_message(RestoreFailed { entity: film, root, error });
+    }
     commands.write_message(FilmReady { entity: film, root, triangles, warnings });
 }
 

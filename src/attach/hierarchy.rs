@@ -4,18 +4,13 @@ use bevy::{
     ecs::{
         entity::Entity,
         hierarchy::{ChildOf, Children},
-        name::Name,
         query::With,
         system::{Query, SystemParam},
-        world::World,
     },
     transform::components::Transform,
 };
 
-use crate::{
-    api::{coating::Coating, exclude::CoatingExclude},
-    sim::PathStep,
-};
+use crate::api::{coating::Coating, exclude::CoatingExclude};
 
 /// Coatings, and the hierarchy of entities.
 #[derive(SystemParam)]
@@ -53,21 +48,4 @@ impl Coatings<'_, '_> {
         let below = self.parents.get(slot).is_ok_and(|&ChildOf(parent)| parent == film);
         slot == film || (below && self.transforms.get(slot).is_ok_and(|t| *t == Transform::IDENTITY))
     }
-}
-
-/// Returns the names on the way from `root`, which is not included, down to `entity`, which is.
-pub(super) fn path_to(world: &World, root: Entity, entity: Entity) -> Vec<PathStep<'_>> {
-    let name_of = |e: Entity| world.get::<Name>(e).map_or("", Name::as_str);
-    let mut path = Vec::new();
-    let mut at = entity;
-    while at != root {
-        let Some(&ChildOf(parent)) = world.get::<ChildOf>(at) else { break };
-        let name = name_of(at);
-        let siblings = world.get::<Children>(parent).into_iter().flatten().copied();
-        let before = siblings.take_while(|&sibling| sibling != at).filter(|&sibling| name_of(sibling) == name);
-        path.push(PathStep { name, number: before.count() as u32 });
-        at = parent;
-    }
-    path.reverse();
-    path
 }

@@ -44,7 +44,7 @@ pub(crate) fn add_attachment(app: &mut App) {
         (
             finish::finish_builds,
             copy::copy_clones,
-            discover::find_meshes,
+            (discover::find_saved, discover::find_meshes).chain(),
             discover::find_outdated,
             recheck::recheck_refused,
             follow::follow_coatings,

@@ -21,6 +21,7 @@ use crate::{
         clock::CoatingGravity,
         coating::{Coating, FilmKey, SettingsSource},
         error::CoatingFault,
+        history::CoatingHistory,
         links::{FilmSlot, place_of},
         shelter::Shelter,
         unit::CoatingUnit,
@@ -29,6 +30,7 @@ use crate::{
     deform::SolverQuality,
     settings::CoatingSettings,
     shelter::{CastOrder, ShelterScene},
+    snapshot::Snapshot,
     stain::Environment,
 };
 
@@ -44,6 +46,10 @@ pub(super) struct FilmInputs {
     pub metres_per_unit: f32,
     /// Gravity and weather of the film's past.
     pub past: Environment,
+    /// Saved state in which the film is to begin.
+    pub saved: Option<Snapshot>,
+    /// Memory for keyframes, in bytes, if the film's past is to be kept.
+    pub history: Option<usize>,
     /// Meshes that may shelter the film; `None` without rain and sun, or if the coating does not ask for shelters.
     pub shelter: Option<CastOrder>,
 }
@@ -103,6 +109,8 @@ pub(super) fn inputs_of(
         scale: scale * metres_per_unit,
         metres_per_unit,
         past: past.environment(gravity, &transform),
+        saved: None,
+        history: world.get::<CoatingHistory>(root).map(|history| history.keyframe_bytes),
         shelter,
     }))
 }

@@ -11,14 +11,22 @@ pub struct Conditions {
 }
 
 impl Conditions {
+    /// Takes over what `event` changes of these conditions. Returns whether it changed anything.
+    pub fn follow(&mut self, event: &Event) -> bool {
+        match event {
+            Event::Settings(new) => replace(&mut self.settings, new),
+            Event::Environment(new) => replace(&mut self.environment, new),
+            _ => false,
+        }
+    }
+
     /// Lets `event` act on `film` or on these conditions. Returns whether it changed anything; if not, all is as it
     /// was.
     pub fn apply(&mut self, film: &mut FilmState, event: &Event) -> bool {
         let Self { settings, environment } = self;
         let FilmState { mesh, forces, .. } = film;
         match event {
-            Event::Settings(new) => replace(settings, new),
-            Event::Environment(new) => replace(environment, new),
+            Event::Settings(_) | Event::Environment(_) => self.follow(event),
             Event::Quality(new) => replace(&mut film.quality, new),
             Event::Exposure(new) => {
                 // Entries beyond the original vertices mean nothing, and keyframes do not hold them.

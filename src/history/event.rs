@@ -41,3 +41,15 @@ pub struct LogEntry {
     /// Event that happened then, before the next step.
     pub event: Event,
 }
+
+impl LogEntry {
+    /// Returns the memory that this takes, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let beside = match &self.event {
+            Event::Settings(_) => size_of::<CoatingSettings>(),
+            Event::Exposure(Exposure { rain, sun }) => size_of::<f32>() * (rain.len() + sun.len()),
+            _ => 0,
+        };
+        size_of::<Self>() + beside
+    }
+}

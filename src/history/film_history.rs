@@ -3,15 +3,9 @@
 use super::{
     conditions::Conditions,
     event::{Event, LogEntry},
-    keyframes::{Keyframe, Keyframes},
+    past::Past,
 };
-use crate::{
-    coding::Damage,
-    settings::CoatingSettings,
-    sim::{FilmState, FreshFilm},
-    snapshot::SnapshotError,
-    stain::Environment,
-};
+use crate::{settings::CoatingSettings, sim::FilmState, snapshot::SnapshotError, stain::Environment};
 
 /// Memory for the keyframes of a history, unless another is [set](History::set_keyframe_bytes): 16 MiB.
 pub const DEFAULT_KEYFRAME_BYTES: usize = 16 << 20;
@@ -48,13 +42,9 @@ pub const DEFAULT_KEYFRAME_BYTES: usize = 16 << 20;
 /// ```
 #[derive(Clone, Debug)]
 pub struct History {
-    film: FilmState,
-    now: Conditions,
-    fresh: FreshFilm,
-    /// Conditions at the first keyframe.
-    first: Conditions,
-    log: Vec<LogEntry>,
-    keyframes: Keyframes,
+    pub(crate) film: FilmState,
+    pub(crate) now: Conditions,
+    pub(crate) past: Past,
 }
 
 impl History {
@@ -67,18 +57,15 @@ impl History {
         settings: CoatingSettings,
         environment: Environment,
     ) -> Result<Self, SnapshotError> {
-        let rest = film.mesh.at_rest().map_err(|_| SnapshotError::Unsaveable { part: "its mesh" })?;
-        let mut fresh = FreshFilm::new(rest);
-        let first = keyframe(&mut fresh, &mut film)?;
         let now = Conditions { settings, environment };
-        let keyframes = Keyframes::new(first, DEFAULT_KEYFRAME_BYTES);
-        Ok(Self { film, first: now.clone(), now, fresh, log: Vec::new(), keyframes })
+        let past = Past::new(&mut film, &now, DEFAULT_KEYFRAME_BYTES)?;
+        Ok(Self { film, now, past })
     }
 
-    /// Sets the memory for keyframes, in bytes. More memory makes [`seek`](Self::seek) faster; the first keyframe stays
-    /// whatever the memory.
+    /// Sets the memory for keyframes, in bytes. More memory makes [`seek`](Self::seek) faster. The first keyframe stays
+    /// whatever the memory, unless the log takes more than this, too: then the history begins at a later one.
     pub fn set_keyframe_bytes(&mut self, bytes: usize) {
-        self.keyframes.set_budget(bytes);
+        self.past.set_keyframe_bytes(bytes);
     }
 
     /// Returns the film as it is now.
@@ -103,17 +90,17 @@ impl History {
 
     /// Returns all events, in the order in which they happened, also those after the present step.
     pub fn log(&self) -> &[LogEntry] {
-        &self.log
+        self.past.log()
     }
 
     /// Returns the steps at which there are keyframes, in order.
     pub fn keyframe_steps(&self) -> impl Iterator<Item = u64> + '_ {
-        self.keyframes.steps()
+        self.past.keyframes().steps()
     }
 
     /// Returns the memory that keyframes take, in bytes.
     pub fn keyframe_bytes(&self) -> usize {
-        self.keyframes.bytes()
+        self.past.keyframes().bytes()
     }
 
     /// Takes one step, with the events that were logged after it, if any were.
@@ -124,12 +111,12 @@ impl History {
         self.film.step(&self.now.settings, &self.now.environment);
         let step = self.film.clock.steps;
         // Before the events at this step: they are applied after the keyframe is restored.
-        let saved = if self.keyframes.is_due(step) {
-            keyframe(&mut self.fresh, &mut self.film).map(|saved| self.keyframes.push(saved))
+        let saved = if self.past.keyframes().is_due(step) {
+            self.past.keyframe_of(&mut self.film).map(|saved| self.past.push(saved))
         } else {
             Ok(())
         };
-        self.replay_events(step);
+        self.replay_events();
         saved
     }
 
@@ -138,10 +125,7 @@ impl History {
     pub fn record(&mut self, event: Event) -> bool {
         let changes = self.now.apply(&mut self.film, &event);
         if changes {
-            let step = self.film.clock.steps;
-            self.log.truncate(self.log.partition_point(|entry| entry.step <= step));
-            self.keyframes.truncate(step);
-            self.log.push(LogEntry { step, event });
+            self.past.record(self.film.clock.steps, event);
         }
         changes
     }
@@ -153,46 +137,29 @@ impl History {
     /// [`SnapshotError::Unsaveable`] if a keyframe is due and the film cannot be saved. The film is somewhere on the
     /// way then.
     pub fn seek(&mut self, step: u64) -> Result<(), SnapshotError> {
-        let now = self.film.clock.steps;
-        if let Some(saved) = self.keyframes.before(step)
-            && (step < now || saved.step > now)
-        {
-            let restored = self.fresh.read(&saved.state, false);
-            let restored = restored.map_err(|Damage(part)| SnapshotError::Inconsistent { part })?;
-            let scratch = std::mem::take(&mut self.film.scratch);
-            self.film = FilmState { scratch, ..restored };
-            self.now = self.conditions_before(self.film.clock.steps);
-            self.replay_events(self.film.clock.steps);
-        }
+        self.jump(step)?;
         while self.film.clock.steps < step {
             self.step()?;
         }
         Ok(())
     }
 
-    /// Returns the conditions before the events at `step`.
-    fn conditions_before(&self, step: u64) -> Conditions {
-        let past = self.log.iter().take_while(|entry| entry.step < step);
-        past.fold(self.first.clone(), |mut conditions, entry| {
-            match &entry.event {
-                Event::Settings(settings) => conditions.settings.clone_from(settings),
-                Event::Environment(environment) => conditions.environment = *environment,
-                _ => {}
-            }
-            conditions
-        })
+    /// Goes to the last keyframe at or before `step`, if the film is not nearer already.
+    pub(crate) fn jump(&mut self, step: u64) -> Result<(), SnapshotError> {
+        if self.past.leads_back(self.film.clock.steps, step)
+            && let Some((film, now)) = self.past.restore(step)?
+        {
+            let scratch = std::mem::take(&mut self.film.scratch);
+            (self.film, self.now) = (FilmState { scratch, ..film }, now);
+            self.replay_events();
+        }
+        Ok(())
     }
 
-    /// Lets the events that were logged at `step` happen again.
-    fn replay_events(&mut self, step: u64) {
-        let first = self.log.partition_point(|entry| entry.step < step);
-        for entry in self.log.iter().skip(first).take_while(|entry| entry.step == step) {
-            self.now.apply(&mut self.film, &entry.event);
+    /// Lets the events that were logged at this step happen again.
+    fn replay_events(&mut self) {
+        for event in self.past.events_at(self.film.clock.steps) {
+            self.now.apply(&mut self.film, event);
         }
     }
-}
-
-fn keyframe(fresh: &mut FreshFilm, film: &mut FilmState) -> Result<Keyframe, SnapshotError> {
-    let state = fresh.write(film).map_err(|Damage(part)| SnapshotError::Unsaveable { part })?;
-    Ok(Keyframe { step: film.clock.steps, state: state.into_boxed_slice() })
 }

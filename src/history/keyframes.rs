@@ -1,5 +1,7 @@
 //! Keyframes: states of a film on its way, within a budget of memory.
 
+use std::sync::Arc;
+
 /// Least number of steps between two keyframes: to restore one takes about as long as so many steps.
 const LEAST_PACE: u64 = 20;
 
@@ -7,10 +9,10 @@ const LEAST_PACE: u64 = 20;
 #[derive(Clone, Debug)]
 pub struct Keyframe {
     pub step: u64,
-    pub state: Box<[u8]>,
+    pub state: Arc<[u8]>,
 }
 
-/// Keyframes in the order of their steps. The first is where the history begins, and stays.
+/// Keyframes in the order of their steps. The first is where the history begins.
 #[derive(Clone, Debug)]
 pub struct Keyframes {
     list: Vec<Keyframe>,
@@ -33,6 +35,11 @@ impl Keyframes {
     /// Returns the number of bytes of all keyframes.
     pub fn bytes(&self) -> usize {
         self.bytes
+    }
+
+    /// Returns the step of the last keyframe.
+    pub fn last_step(&self) -> u64 {
+        self.list.last().map_or(0, |last| last.step)
     }
 
     /// Returns the steps of all keyframes, in order.
@@ -63,6 +70,18 @@ impl Keyframes {
             self.list.push(keyframe);
             self.thin();
         }
+    }
+
+    /// Gives up the first keyframe, if there is another to begin with, and returns the step of that one.
+    pub fn shift(&mut self) -> Option<u64> {
+        let next = self.list.get(1)?.step;
+        self.bytes -= self.list.remove(0).state.len();
+        Some(next)
+    }
+
+    /// Returns the budget, in bytes.
+    pub fn budget(&self) -> usize {
+        self.budget
     }
 
     /// Forgets the keyframes after `step`.

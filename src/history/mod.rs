@@ -9,9 +9,12 @@ mod conditions;
 mod event;
 mod film_history;
 mod keyframes;
+mod past;
 
 #[cfg(test)]
 mod tests;
 
 pub use event::{Event, LogEntry};
 pub use film_history::{DEFAULT_KEYFRAME_BYTES, History};
+#[cfg(feature = "plugin")]
+pub(crate) use {conditions::Conditions, keyframes::Keyframe, past::Past};

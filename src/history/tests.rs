@@ -112,3 +112,26 @@ fn keyframes_are_thinned_evenly() {
     keyframes.set_budget(0);
     assert_eq!(keyframes.steps().collect::<Vec<_>>(), [0], "the first stays");
 }
+
+#[test]
+fn a_long_log_moves_the_beginning() {
+    let mut history = history(200);
+    history.set_keyframe_bytes(30_000);
+    let mut digests = vec![history.film().digest()];
+    for step in 0..400_u32 {
+        let tilt = bevy_math::ops::sin(step as f32 * 0.1);
+        let turned = Environment::still(Vec3::new(tilt, -1.0, 0.0).normalize());
+        assert!(history.record(Event::Environment(turned)));
+        history.step().expect("a step");
+        digests.push(history.film().digest());
+    }
+    assert!(history.log().len() < 400, "the log is bounded: {}", history.log().len());
+    let first = history.keyframe_steps().next().expect("a keyframe");
+    assert!(first > 0 && history.log()[0].step >= first);
+    history.seek(0).expect("the past");
+    assert_eq!(history.film().clock.steps, first, "there is nothing before");
+    for step in [first, 399, first + 1, 400] {
+        history.seek(step).expect("the past");
+        assert_eq!(history.film().digest(), digests[step as usize], "step {step}");
+    }
+}

@@ -23,18 +23,58 @@ pub struct FilmClock {
     pub steps: u64,
     /// Number of steps in a unit of age, 1 or more (0 counts as 1). Default 1,000.
     pub steps_per_age: u32,
+    /// Step to which the plugin is to bring the film.
+    pub(crate) goal: Option<u64>,
 }
 
 impl Default for FilmClock {
     fn default() -> Self {
-        Self { steps: 0, steps_per_age: DEFAULT_STEPS_PER_AGE }
+        Self::new(DEFAULT_STEPS_PER_AGE)
     }
 }
 
 impl FilmClock {
     /// Creates a clock at age 0 with steps of 1 / `steps_per_age`; 0 counts as 1.
     pub fn new(steps_per_age: u32) -> Self {
-        Self { steps: 0, steps_per_age: steps_per_age.max(1) }
+        Self { steps: 0, steps_per_age: steps_per_age.max(1), goal: None }
+    }
+
+    /// Asks the plugin to bring the film of this clock to `age`, back or forward; negative ages and NaN count as 0.
+    ///
+    /// The film is brought there in the background and shows itself as it was until it has arrived; it takes no other
+    /// steps meanwhile. [`AgeReached`](crate::AgeReached) tells of it. Until then another call changes the goal. To go
+    /// back, the film needs a [`CoatingHistory`](crate::CoatingHistory) beside its `Coating`; without one a warning
+    /// says so, and the film stays. The film goes no farther back than its history.
+    ///
+    /// On the way the film meets what it has met before, as far as it has been there already, and the conditions of
+    /// today from there on. When time runs on from an age in the past, conditions or edits that differ from those of
+    /// then begin another future.
+    ///
+    /// ```
+    /// use bevy::prelude::*;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// /// Shows every film at half its life.
+    /// fn scrub(mut clocks: Query<&mut FilmClock>) {
+    ///     for mut clock in &mut clocks {
+    ///         clock.seek(0.5);
+    ///     }
+    /// }
+    /// # let mut app = App::new();
+    /// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+    /// # app.add_plugins(CoatingWeatheringPlugin::default());
+    /// app.add_systems(Update, scrub);
+    /// app.update();
+    /// ```
+    #[cfg(feature = "plugin")]
+    pub fn seek(&mut self, age: f64) {
+        self.goal = Some(self.step_at(age));
+    }
+
+    /// Returns the age to which the film is being brought, if it is.
+    #[cfg(feature = "plugin")]
+    pub fn sought(&self) -> Option<f64> {
+        self.goal.map(|steps| Self { steps, ..*self }.age())
     }
 
     /// Returns the age at the end of the last step: 0 is fresh, 1 the end of the paper's reference run.

@@ -61,6 +61,15 @@ pub enum SnapshotError {
         /// The part of the film that is wrong.
         part: &'static str,
     },
+    /// Nothing was saved of the film.
+    #[error(
+        "nothing was saved of a film at `{path}` below its coating: name entities as they were named when the films were \
+         saved"
+    )]
+    NoFilm {
+        /// Names of the entities that lead to the film.
+        path: String,
+    },
     /// The file cannot be read.
     #[error("cannot read the snapshot {}: {source}", path.display())]
     Read {

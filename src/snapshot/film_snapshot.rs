@@ -2,6 +2,9 @@
 
 use std::{fmt, path::Path};
 
+#[cfg(feature = "plugin")]
+use bevy::reflect::prelude::*;
+
 use super::{digest::MeshName, error::SnapshotError, header};
 use crate::{
     coding::Damage,
@@ -44,6 +47,12 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "plugin",
+    derive(Reflect),
+    reflect(opaque, Clone, PartialEq, Debug, Serialize, Deserialize),
+    type_path = "bevy_coating::snapshot"
+)]
 pub struct Snapshot(pub(super) Vec<u8>);
 
 impl Snapshot {

@@ -5,7 +5,7 @@ use bevy::{
         change_detection::DetectChangesMut,
         entity::Entity,
         message::MessageWriter,
-        system::{EntityCommand, In, Query},
+        system::{Commands, EntityCommand, In, Query},
         world::EntityWorldMut,
     },
     log::warn,
@@ -23,11 +23,13 @@ use crate::{
     deform::FilmConstraints,
     film::{FaceId, FilmMesh, HalfEdgeId},
     fracture::FilmForces,
+    history::Event,
     sim::{
         FilmClock, StepScratch,
         edit::{FilmParts, strip_face, tear_edge},
     },
     stain::StainFields,
+    timeline::{FilmHistory, FilmJourney, Goal},
 };
 
 /// Edit of a film by a game, as a command for the film's entity. All parts of the film follow it, and it is told and
@@ -85,12 +87,14 @@ fn edit_film(
     In((entity, edit)): In<(Entity, FilmEdit)>,
     mut films: Query<(
         (&mut FilmMesh, &mut FilmForces, &mut FilmConstraints, &mut StainFields, &FilmClock, &mut StepScratch),
-        (&mut FilmPace, &mut DisplayChanges, &FilmSource, &GlobalTransform),
+        (&mut FilmPace, &mut DisplayChanges, &FilmSource, &GlobalTransform, Option<&mut FilmHistory>),
     )>,
+    journeys: Query<&FilmJourney>,
+    mut commands: Commands,
     mut cracks: MessageWriter<FirstCrack>,
     mut pieces: MessageWriter<PieceFallen>,
 ) {
-    let Ok((film, (mut pace, mut display, source, transform))) = films.get_mut(entity) else {
+    let Ok((film, (mut pace, mut display, source, transform, history))) = films.get_mut(entity) else {
         warn!("entity {entity} has no film that could be edited");
         return;
     };
@@ -109,6 +113,17 @@ fn edit_film(
         FilmEdit::StripFace(face) => strip_face(parts, &pace.settings, &pace.environment, face),
     };
     let Some(changes) = changes else { return };
+    if let Some(mut history) = history {
+        let event = match edit {
+            FilmEdit::TearEdge(edge) => Event::TearEdge(edge),
+            FilmEdit::StripFace(face) => Event::StripFace(face),
+        };
+        history.record(clock.steps, event);
+    }
+    // A way that has begun without this begins again with it.
+    if journeys.get(entity).is_ok_and(|journey| journey.goal != Goal::Saved) {
+        commands.entity(entity).try_remove::<FilmJourney>();
+    }
     let film = FilmInWorld { entity, mesh: &mesh, clock, source, transform };
     film.tell(&mut pace.cracked, &changes, &mut cracks, &mut pieces);
     display.bypass_change_detection().record(&changes, &stains);

@@ -114,7 +114,7 @@ fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> f
         pace.held = shelter.holds_back(&pace.environment);
         let steps_per_age = pace.rate * f64::from(clock_of_film.steps_per_age);
         let left = target.map_or(u64::MAX, |age| clock_of_film.step_at(age).saturating_sub(clock_of_film.steps));
-        pace.account.begin(steps_per_age, left, wanted > 0.0, !pace.paused);
+        pace.account.begin(steps_per_age, left, wanted > 0.0, !pace.paused && !pace.travels);
         pace.account.request(requested);
     }
     let age = shorten_age(wanted, max_steps, films.iter(world).map(|(pace, ..)| pace));
@@ -137,6 +137,7 @@ fn settle(world: &mut World, films: &mut Films, time: f64) -> CoatingStatus {
         pace.due = false;
         status.films += 1;
         status.casting += usize::from(pace.held);
+        status.seeking += usize::from(pace.travels);
         status.stepped += usize::from(pace.account.taken() > 0);
         status.postponed += usize::from(pace.postponed);
         status.youngest = status.youngest.min(clock.age());

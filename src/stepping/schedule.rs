@@ -6,7 +6,10 @@ use bevy::{
 };
 
 use super::{report, systems};
-use crate::api::system_sets::{CoatingStep, CoatingSystems};
+use crate::{
+    api::system_sets::{CoatingStep, CoatingSystems},
+    timeline,
+};
 
 /// Adds the schedule [`CoatingStep`] with its stages and systems.
 pub(crate) fn add_step_schedule(app: &mut App) {
@@ -32,7 +35,7 @@ pub(crate) fn add_step_schedule(app: &mut App) {
     app.add_systems(
         CoatingStep,
         (
-            (systems::begin, systems::age_forces).chain().in_set(CoatingSystems::Forces),
+            (timeline::note_conditions, systems::begin, systems::age_forces).chain().in_set(CoatingSystems::Forces),
             systems::separate.in_set(CoatingSystems::Separate),
             systems::tear.in_set(CoatingSystems::Tear),
             systems::strip.in_set(CoatingSystems::Strip),
@@ -40,7 +43,7 @@ pub(crate) fn add_step_schedule(app: &mut App) {
             systems::rust.in_set(CoatingSystems::Rust),
             systems::dust.in_set(CoatingSystems::Dust),
             systems::moisture.in_set(CoatingSystems::Moisture),
-            report::report.in_set(CoatingSystems::Report),
+            (report::report, timeline::keep_past).chain().in_set(CoatingSystems::Report),
         ),
     );
 }

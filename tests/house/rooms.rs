@@ -22,7 +22,7 @@ const LADDER: [&[&str]; 14] = [
     &["appearance"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "shelter", "stepping", "attach"],
+    &["display", "shelter", "timeline", "stepping", "attach"],
     &["plugin"],
     &["prelude"],
     &["lib"],

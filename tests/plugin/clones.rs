@@ -156,5 +156,6 @@ fn inner_components_are_not_saved_with_a_scene() {
         .collect();
     let mut saved = saved;
     saved.sort_unstable();
-    assert_eq!(saved, ["bevy_coating::api::coating::Coating", "bevy_coating::api::seed::CoatingSeed"]);
+    let expected = ["coating::Coating", "links::CoatedMesh", "seed::CoatingSeed"];
+    assert_eq!(saved, expected.map(|name| format!("bevy_coating::api::{name}")));
 }

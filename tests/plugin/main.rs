@@ -35,6 +35,7 @@ mod picture;
 mod rebuilding;
 mod recovery;
 mod rest;
+mod saving;
 mod seeds;
 mod settings;
 mod shelter;
@@ -47,4 +48,5 @@ mod stains_age;
 mod stains_material;
 #[cfg(feature = "render")]
 mod stains_picture;
+mod timeline;
 mod units;

@@ -49,5 +49,5 @@ fn what_creeps_is_seen_in_the_end_and_what_trembles_is_not() {
     // A change of 1/255 at a rate of at most 1e-4.
     assert!(steps.is_some_and(|steps| (30..200).contains(&steps)), "{steps:?}");
     assert!(!settle(1.0), "the next is far off again");
-    assert_eq!(film.clock, FilmClock { steps: 2, steps_per_age: 100 });
+    assert_eq!(film.clock, FilmClock { steps: 2, ..FilmClock::new(100) });
 }

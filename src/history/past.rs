@@ -1,0 +1,143 @@
+//! What is known of a film's past, without the film itself.
+
+use std::sync::Arc;
+
+use super::{
+    conditions::Conditions,
+    event::{Event, LogEntry},
+    keyframes::{Keyframe, Keyframes},
+};
+use crate::{
+    coding::Damage,
+    sim::{FilmState, FreshFilm},
+    snapshot::SnapshotError,
+};
+
+/// Past of a film: where it began, what acted on it since, and keyframes on the way.
+///
+/// Clones share what is large, so that one can be sent to another thread while the film goes on.
+#[derive(Clone, Debug)]
+pub(crate) struct Past {
+    fresh: Arc<FreshFilm>,
+    /// Conditions at the first keyframe.
+    first: Arc<Conditions>,
+    log: Arc<Vec<LogEntry>>,
+    /// Memory of the log, in bytes.
+    log_bytes: usize,
+    keyframes: Keyframes,
+}
+
+impl Past {
+    /// Begins the past of `film`, which is under `conditions`, where it is now, with at most `bytes` of keyframes.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if public fields of the film were changed so that it is none any more.
+    pub fn new(film: &mut FilmState, conditions: &Conditions, bytes: usize) -> Result<Self, SnapshotError> {
+        let rest = film.mesh.at_rest().map_err(|_| SnapshotError::Unsaveable { part: "its mesh" })?;
+        let mut fresh = FreshFilm::new(rest);
+        let first = write(&mut fresh, film)?;
+        Ok(Self {
+            fresh: Arc::new(fresh),
+            first: Arc::new(conditions.clone()),
+            log: Arc::default(),
+            log_bytes: 0,
+            keyframes: Keyframes::new(first, bytes),
+        })
+    }
+
+    /// Returns all events, in the order in which they happened.
+    pub fn log(&self) -> &[LogEntry] {
+        &self.log
+    }
+
+    /// Returns the events at `step`.
+    pub fn events_at(&self, step: u64) -> impl Iterator<Item = &Event> {
+        let first = self.log.partition_point(|entry| entry.step < step);
+        self.log.iter().skip(first).take_while(move |entry| entry.step == step).map(|entry| &entry.event)
+    }
+
+    /// Returns the keyframes.
+    pub fn keyframes(&self) -> &Keyframes {
+        &self.keyframes
+    }
+
+    /// Sets the memory for keyframes, in bytes.
+    pub fn set_keyframe_bytes(&mut self, bytes: usize) {
+        self.keyframes.set_budget(bytes);
+    }
+
+    /// Logs an event that happens at `step`. What was logged after that is forgotten. Where the log takes more memory
+    /// than keyframes may, the past begins later: at a keyframe that covers what came before.
+    pub fn record(&mut self, step: u64, event: Event) {
+        self.forget_after(step);
+        let entry = LogEntry { step, event };
+        self.log_bytes += entry.bytes();
+        Arc::make_mut(&mut self.log).push(entry);
+        while self.log_bytes > self.keyframes.budget() && self.begin_later() {}
+    }
+
+    /// Forgets the time before the second keyframe. Returns whether there is one.
+    fn begin_later(&mut self) -> bool {
+        let Some(step) = self.keyframes.shift() else { return false };
+        self.first = Arc::new(self.conditions_before(step));
+        let forgotten = self.log.partition_point(|entry| entry.step < step);
+        let forgotten = Arc::make_mut(&mut self.log).drain(..forgotten);
+        self.log_bytes -= forgotten.map(|entry| entry.bytes()).sum::<usize>();
+        true
+    }
+
+    /// Forgets what is known of the time after `step`.
+    pub fn forget_after(&mut self, step: u64) {
+        if self.log.last().is_some_and(|last| last.step > step) {
+            let kept = self.log.partition_point(|entry| entry.step <= step);
+            let forgotten = Arc::make_mut(&mut self.log).drain(kept..);
+            self.log_bytes -= forgotten.map(|entry| entry.bytes()).sum::<usize>();
+        }
+        self.keyframes.truncate(step);
+    }
+
+    /// Returns the state of `film` as a keyframe.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if the film cannot be saved.
+    pub fn keyframe_of(&mut self, film: &mut FilmState) -> Result<Keyframe, SnapshotError> {
+        write(Arc::make_mut(&mut self.fresh), film)
+    }
+
+    /// Adds a keyframe that lies after all others.
+    pub fn push(&mut self, keyframe: Keyframe) {
+        self.keyframes.push(keyframe);
+    }
+
+    /// Returns whether the way to `step` leads over a keyframe for a film that is at `now`.
+    pub fn leads_back(&self, now: u64, step: u64) -> bool {
+        self.keyframes.before(step).is_some_and(|keyframe| step < now || keyframe.step > now)
+    }
+
+    /// Makes the film of the last keyframe at or before `step`, before the events there, and its conditions. `None` if
+    /// there is no keyframe.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Inconsistent`] if the keyframe is none of this film.
+    pub fn restore(&mut self, step: u64) -> Result<Option<(FilmState, Conditions)>, SnapshotError> {
+        let Some(saved) = self.keyframes.before(step) else { return Ok(None) };
+        let film = Arc::make_mut(&mut self.fresh).read(&saved.state, false);
+        let film = film.map_err(|Damage(part)| SnapshotError::Inconsistent { part })?;
+        let conditions = self.conditions_before(film.clock.steps);
+        Ok(Some((film, conditions)))
+    }
+
+    /// Returns the conditions before the events at `step`.
+    fn conditions_before(&self, step: u64) -> Conditions {
+        let mut conditions = Conditions::clone(&self.first);
+        for entry in self.log.iter().take_while(|entry| entry.step < step) {
+            conditions.follow(&entry.event);
+        }
+        conditions
+    }
+}
+
+fn write(fresh: &mut FreshFilm, film: &mut FilmState) -> Result<Keyframe, SnapshotError> {
+    let state = fresh.write(film).map_err(|Damage(part)| SnapshotError::Unsaveable { part })?;
+    Ok(Keyframe { step: film.clock.steps, state: state.into() })
+}
