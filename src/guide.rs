@@ -6,7 +6,7 @@
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
 //! | [`baking`] | ageing model files without an engine |
-//! | [`snapshots`] | saving and restoring films, going to any step |
+//! | [`saving`] | saving and restoring films, going back in time, props that come late |
 //! | [`performance`] | measured times, quality levels |
 //! | [`limits`] | which meshes are taken, and what is not simulated |
 //! | [`how_it_works`] | the stages, and where each comes from in the paper |
@@ -21,7 +21,7 @@ macro_rules! links {
 [settings]: crate::guide::settings
 [stains]: crate::guide::stains
 [baking]: crate::guide::baking
-[snapshots]: crate::guide::snapshots
+[saving]: crate::guide::saving
 [performance]: crate::guide::performance
 [limits]: crate::guide::limits
 [how it works]: crate::guide::how_it_works
@@ -48,8 +48,9 @@ pub mod stains {}
 pub mod baking {}
 
 #[doc = links!()]
-#[doc = include_str!("../docs/snapshots.md")]
-pub mod snapshots {}
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/saving.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod saving {}
 
 #[doc = links!()]
 #[doc = include_str!("../docs/performance.md")]

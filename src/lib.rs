@@ -148,6 +148,7 @@ mod timeline;
 #[cfg(feature = "plugin")]
 pub use api::{
     budget::CoatingBudget,
+    calendar::CoatingCalendar,
     clock::{CoatingClock, CoatingGravity, DEFAULT_AGE_PER_SECOND},
     coating::{Coating, SettingsSource},
     diagnostics,

@@ -11,6 +11,7 @@ use bevy::{
 use crate::{
     api::{
         budget::CoatingBudget,
+        calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
         messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
@@ -77,6 +78,7 @@ impl Plugin for CoatingWeatheringPlugin {
         app.add_plugins(CoatingSettingsPlugin)
             .init_resource::<CoatingClock>()
             .init_resource::<CoatingBudget>()
+            .init_resource::<CoatingCalendar>()
             .init_resource::<CoatingGravity>()
             .init_resource::<CoatingWeather>()
             .init_resource::<CoatingUnit>()

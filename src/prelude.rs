@@ -6,6 +6,7 @@
 pub use crate::{
     api::{
         budget::CoatingBudget,
+        calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         coating::{Coating, SettingsSource},
         error::{CoatingError, CoatingFault},

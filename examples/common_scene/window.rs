@@ -3,13 +3,13 @@
 use super::camera::{self, Orbit};
 use super::graphics;
 use super::keys::{self, Command, DIGITS};
-use super::paint::{Progress, Repaint};
+use super::paint::{Paint, Progress, Repaint};
 use super::sky::Sky;
 use bevy::anti_alias::fxaa::Fxaa;
 use bevy::input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseScrollUnit};
 use bevy::prelude::*;
 use bevy::window::WindowResolution;
-use bevy_coating::prelude::*;
+use bevy_coating::{FilmHistory, prelude::*};
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 
 /// What the window looks at: the first view, until a digit key chooses another.
@@ -29,7 +29,7 @@ pub fn add(app: &mut App, title: &str, size: UVec2, views: Views) {
         .insert_resource(views)
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
-        .add_systems(Update, (obey_keys, look, orbit))
+        .add_systems(Update, (keep_past, obey_keys, look, orbit))
         .add_systems(EguiPrimaryContextPass, read_out);
 }
 
@@ -46,6 +46,15 @@ impl Default for Help {
 fn spawn_camera(mut commands: Commands, sky: Res<Sky>, views: Res<Views>) {
     if let Some((_, orbit)) = views.list.get(views.first) {
         commands.spawn((camera::view(&sky, *orbit), Fxaa::default()));
+    }
+}
+
+/// Memory for the past of each film, which the bar goes through.
+const PAST: CoatingHistory = CoatingHistory { keyframe_bytes: 4 << 20 };
+
+fn keep_past(mut commands: Commands, painted: Query<Entity, (With<Paint>, Without<CoatingHistory>)>) {
+    for prop in &painted {
+        commands.entity(prop).insert(PAST);
     }
 }
 
@@ -125,11 +134,25 @@ fn orbit(
     }
 }
 
+/// A bar on which all films are drawn to an age, back and forward.
+fn scrub(ui: &mut egui::Ui, clock: &mut CoatingClock, films: &mut Query<(&mut FilmClock, &FilmHistory)>) {
+    let oldest = films.iter().map(|(film, history)| history.last_age(film)).fold(1.0, f64::max);
+    let now = films.iter().map(|(film, _)| film.sought().unwrap_or(film.age())).fold(0.0, f64::max);
+    let mut age = now;
+    if ui.add(egui::Slider::new(&mut age, 0.0..=oldest).text("age")).changed() {
+        clock.paused = true;
+        for (mut film, _) in films {
+            film.seek(age);
+        }
+    }
+}
+
 fn read_out(
     mut contexts: EguiContexts,
     mut clock: ResMut<CoatingClock>,
     mut commands: Commands,
     progress: Progress,
+    mut past: Query<(&mut FilmClock, &FilmHistory)>,
     views: Res<Views>,
     help: Res<Help>,
 ) -> Result {
@@ -155,6 +178,7 @@ fn read_out(
                 commands.trigger(Repaint);
             }
         });
+        scrub(ui, &mut clock, &mut past);
         let mut speed = clock.age_per_second;
         let slider = egui::Slider::new(&mut speed, SLOWEST..=FASTEST).logarithmic(true).text("age per second");
         if ui.add(slider).changed() {

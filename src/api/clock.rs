@@ -48,11 +48,19 @@ pub struct CoatingClock {
     /// Steps [requested](Self::request_steps) since the last frame. The next frame hands them to the films and sets
     /// this to 0. Default 0.
     pub requested_steps: u64,
+    /// Age that is [skipped](Self::skip) in the next frame, which sets this to 0. Default 0.
+    pub skipped_age: f64,
 }
 
 impl Default for CoatingClock {
     fn default() -> Self {
-        Self { age_per_second: DEFAULT_AGE_PER_SECOND, paused: false, target_age: None, requested_steps: 0 }
+        Self {
+            age_per_second: DEFAULT_AGE_PER_SECOND,
+            paused: false,
+            target_age: None,
+            requested_steps: 0,
+            skipped_age: 0.0,
+        }
     }
 }
 
@@ -72,6 +80,35 @@ impl CoatingClock {
     /// ```
     pub fn request_steps(&mut self, steps: u64) {
         self.requested_steps = self.requested_steps.saturating_add(steps);
+    }
+
+    /// Lets `age` pass at once: the date of the [calendar](super::calendar::CoatingCalendar) leaps, and every film goes
+    /// on by as much, times its rate, in the background and in today's weather. Each shows itself as it was until it
+    /// has arrived. Ages that are negative, infinite or NaN count as 0. Props that are paused stay as they are, and
+    /// nothing grows older than the [target](Self::target_age).
+    ///
+    /// ```
+    /// use bevy::prelude::*;
+    /// use bevy_coating::prelude::*;
+    ///
+    /// /// Ten years pass while the player sleeps.
+    /// fn sleep(mut clock: ResMut<CoatingClock>) {
+    ///     clock.skip(0.3);
+    /// }
+    /// # let mut app = App::new();
+    /// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+    /// # app.add_plugins(CoatingWeatheringPlugin::default());
+    /// app.add_systems(Startup, sleep);
+    /// app.update();
+    /// # assert_eq!(app.world().resource::<CoatingCalendar>().date(), 0.3);
+    /// ```
+    pub fn skip(&mut self, age: f64) {
+        self.skipped_age += checked_skip(age);
+    }
+
+    /// Takes the age that is to be skipped.
+    pub(crate) fn take_skip(&mut self) -> f64 {
+        checked_skip(std::mem::take(&mut self.skipped_age))
     }
 
     /// Returns [`CoatingClock::age_per_second`], or 0 if it is out of range.
@@ -94,6 +131,11 @@ impl CoatingClock {
         ];
         faults.into_iter().filter_map(|(is_fault, name)| is_fault.then_some(name)).collect()
     }
+}
+
+/// Returns `age`, or 0 if time cannot leap by it.
+fn checked_skip(age: f64) -> f64 {
+    if age > 0.0 && age.is_finite() { age } else { 0.0 }
 }
 
 /// Direction of gravity in the world, of any length. Default: -y. Zero means weightlessness: nothing runs off.

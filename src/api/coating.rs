@@ -86,6 +86,13 @@ pub struct Coating {
     /// rain nor sun. Today's [weather](super::weather::CoatingWeather) does not reach back, so a prop that is spawned
     /// in a storm looks like one that is spawned before it.
     pub past_weather: Option<CoatingWeather>,
+    /// Date at which the prop was painted, by the [calendar](super::calendar::CoatingCalendar). With one it appears as
+    /// old as the date says: its [start age](Self::start_age), and what has passed since at this rate, in the weather
+    /// that there has been. So a prop that is spawned late, or comes back from a
+    /// [snapshot](super::snapshot::CoatingSnapshot) after it was away, is no younger than one that was there all the
+    /// time, but for 10 of age at most. `None`, the default: it has its start age when it appears, or the age that was
+    /// saved. Any finite number.
+    pub painted: Option<f64>,
     /// Number of steps per unit of age. 1 to 100,000 ([`MAX_STEPS_PER_AGE`](super::limits::MAX_STEPS_PER_AGE)), default
     /// 1,000. The result hardly depends on it; more steps cost more.
     pub steps_per_age: u32,
@@ -117,6 +124,7 @@ impl Default for Coating {
             paused: false,
             start_age: 0.0,
             past_weather: None,
+            painted: None,
             steps_per_age: DEFAULT_STEPS_PER_AGE,
             quality: SolverQuality::default(),
             shelter: Shelter::default(),
@@ -224,6 +232,11 @@ impl Coating {
         Self { past_weather: Some(weather), ..self }
     }
 
+    /// Sets the [date](Self::painted) at which the prop was painted.
+    pub fn with_painted(self, date: f64) -> Self {
+        Self { painted: Some(date), ..self }
+    }
+
     /// Sets the number of [`steps_per_age`](Self::steps_per_age).
     pub fn with_steps_per_age(self, steps_per_age: u32) -> Self {
         Self { steps_per_age, ..self }
@@ -303,7 +316,8 @@ impl Coating {
             seed: self.seed,
             resolution: self.resolution,
             start_age: self.start_age,
-            past_weather: self.past_weather.filter(|_| self.start_age > 0.0),
+            past_weather: self.past_weather.filter(|_| self.start_age > 0.0 || self.painted.is_some()),
+            painted: self.painted,
             steps_per_age: self.steps_per_age,
             detail: self.detail,
         }
@@ -319,6 +333,7 @@ pub(crate) struct FilmKey {
     pub start_age: f64,
     /// Weather of the past; `None` also where there is no past.
     pub past_weather: Option<CoatingWeather>,
+    pub painted: Option<f64>,
     pub steps_per_age: u32,
     pub detail: Detail,
 }
@@ -332,7 +347,7 @@ impl FilmKey {
     }
 
     /// Returns everything that keys are compared by.
-    fn bits(&self) -> (Option<u64>, FilmResolution, u32, u64, Option<[u32; 10]>, u32, [u32; 3]) {
+    fn bits(&self) -> (Option<u64>, FilmResolution, u32, [u64; 3], Option<[u32; 10]>, u32, [u32; 3]) {
         let (resolution, number) = match self.resolution {
             FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
             FilmResolution::Grain { share, max_triangles } => {
@@ -347,7 +362,9 @@ impl FilmKey {
         // How many pixels are enough may change at any time.
         let Detail { level, chips, thickness, .. } = self.detail;
         let detail = [level, chips.to_bits(), thickness.to_bits()];
-        (self.seed, resolution, number, self.start_age.to_bits(), weather, self.steps_per_age, detail)
+        let painted = self.painted.map_or([0, 0], |date| [1, date.to_bits()]);
+        let ages = [self.start_age.to_bits(), painted[0], painted[1]];
+        (self.seed, resolution, number, ages, weather, self.steps_per_age, detail)
     }
 }
 

@@ -98,6 +98,11 @@ impl FilmPace {
         (translation + rotation * self.bounds.0, self.bounds.1)
     }
 
+    /// Returns whether the film is on its way to another age, or to a saved state: then it takes no steps.
+    pub fn is_travelling(&self) -> bool {
+        self.travels
+    }
+
     /// Returns whether the film takes the step that is under way. Systems in
     /// [`CoatingStep`](super::system_sets::CoatingStep) skip the films for which it is false.
     ///

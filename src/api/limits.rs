@@ -36,6 +36,8 @@ impl Coating {
         let most_steps = f64::from(MAX_STEPS_PER_AGE);
         self.checked_rate()?;
         check_field("start_age", self.start_age, 0.0..=MAX_START_AGE, "0 to 10")?;
+        let date = self.painted.unwrap_or_default();
+        check_field("painted", date, f64::MIN..=f64::MAX, "a finite number")?;
         check_field("steps_per_age", steps, 1.0..=most_steps, "1 to 100000")?;
         if let Some((field, found, range)) = self.detail.out_of_range() {
             return Err(CoatingFault::Field { field, found, range });
@@ -78,7 +80,9 @@ mod tests {
             detail: Detail { level, chips, ..Detail::default() },
             ..Coating::default()
         });
+        let dates = [f64::NAN, f64::INFINITY].map(|date| Coating::default().with_painted(date));
         let faults = [
+            ("painted", dates.to_vec()),
             ("detail.", details.to_vec()),
             ("rate", rates.to_vec()),
             ("start_age", ages.to_vec()),

@@ -5,6 +5,7 @@
 
 pub(crate) mod assets;
 pub(crate) mod budget;
+pub(crate) mod calendar;
 pub(crate) mod clock;
 pub(crate) mod coating;
 pub mod diagnostics;

@@ -51,6 +51,8 @@ use crate::snapshot::{Snapshot, SnapshotError};
 pub struct CoatingSnapshot {
     /// Seed from which those of the films follow: that of the coating, or the one that was drawn for it.
     pub seed: u64,
+    /// [Date](super::calendar::CoatingCalendar) at which the films were saved, an age.
+    pub date: f64,
     /// Films, in the order of their paths.
     pub films: Vec<SavedFilm>,
 }

@@ -197,13 +197,11 @@ fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &C
             None => return Ok(None),
         }
     }
-    let inputs = inputs_of(world, candidate.film, root, &candidate.slots, coating)?;
     // A film that is built again begins anew.
     let snapshot = world.get::<CoatingSnapshot>(root).filter(|_| !candidate.renews);
-    Ok(inputs.map(|inputs| {
-        let saved = snapshot.and_then(|snapshot| snapshot.film_at(&written_path(world, root, candidate.film)));
-        FilmInputs { saved: saved.cloned(), ..inputs }
-    }))
+    let state = snapshot.and_then(|saved| saved.film_at(&written_path(world, root, candidate.film)));
+    let saved = snapshot.zip(state).map(|(saved, state)| (state.clone(), saved.date));
+    inputs_of(world, candidate.film, root, &candidate.slots, coating, saved)
 }
 
 /// Returns the seed that was drawn for the coating on `root`, also before it was saved, or draws it from its place.
@@ -230,9 +228,9 @@ fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candid
             commands.entity(slot).try_remove::<AwaitingFilm>().try_insert(claim);
         }
     }
-    let FilmInputs { key, scale, metres_per_unit, .. } = order.inputs;
+    let FilmInputs { key, scale, metres_per_unit, date, .. } = order.inputs;
     let seed = order.seed;
     let task = AsyncComputeTaskPool::get().spawn(build_film(order));
-    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area };
+    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area, date };
     commands.entity(film).try_insert((CoatedBy(root), build));
 }

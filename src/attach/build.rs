@@ -10,9 +10,9 @@ use bevy::{
 
 use super::order::FilmInputs;
 use crate::{
-    api::{coating::FilmKey, error::CoatingFault},
+    api::{coating::FilmKey, error::CoatingFault, limits::MAX_START_AGE},
     display::{FilmDisplay, FilmPaint},
-    history::History,
+    history::{Event, History},
     mesh_reader::surface_of,
     remesh::{FilmTarget, build_film as remesh},
     settings::CoatingSettings,
@@ -44,6 +44,8 @@ pub(crate) struct FilmBuild {
     pub metres_per_unit: f32,
     /// Area of the meshes, in square metres.
     pub area: f64,
+    /// Date for which the film is built.
+    pub date: f64,
 }
 
 /// Inputs of a build.
@@ -77,7 +79,7 @@ pub(crate) struct FilmReadiness {
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
     let FilmOrder { inputs, target, seed, paint } = order;
-    let FilmInputs { meshes, key, settings, quality, scale, past, shelter, saved, history, .. } = inputs;
+    let FilmInputs { meshes, key, settings, quality, scale, past, target: most, shelter, saved, history, .. } = inputs;
     let mut turn = Turn::begin();
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
@@ -94,13 +96,23 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     turn.rest().await;
     let shelter = shelter.map(|order| cast(order.shifted(origin), &mut film)).unwrap_or_default();
     turn.rest().await;
-    let restored = saved.map(|saved| film.restore(&saved).map_err(Arc::new));
-    let is_fresh = !matches!(restored, Some(Ok(())));
-    let mut life = Life::begin(film, &settings, past, history);
-    let steps = life.film().clock.step_at(key.start_age);
-    while is_fresh && life.film().clock.steps < steps {
-        life.step(&settings, &past);
-        turn.rest().await;
+    let (state, since) = saved.unzip();
+    let restored = state.map(|state| film.restore(&state).map_err(Arc::new));
+    let since = since.filter(|_| matches!(restored, Some(Ok(()))));
+    // The target holds nobody back from an age that was asked for, or saved.
+    let first = if since.is_none() { past.first().map_or(0.0, |(age, _)| *age) } else { 0.0 };
+    let most = most.unwrap_or(f64::INFINITY).max(film.clock.age() + first);
+    let lived = since.unwrap_or(past);
+    let mut life = Life::begin(film, settings.clone(), history);
+    let begin = life.film().clock.age();
+    let mut end = begin;
+    for (age, environment) in lived {
+        life.change(environment);
+        end = (end + age).min(most).min(begin + MAX_START_AGE);
+        while life.film().clock.steps < life.film().clock.step_at(end) {
+            life.step();
+            turn.rest().await;
+        }
     }
     display.prepare(life.film());
     let (film, history) = life.end();
@@ -109,46 +121,59 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     Ok(Box::new(FilmReadiness { film, history, refused, settings, warnings, display, shelter, origin }))
 }
 
-/// Film that is aged to its start age, with its past where that is to be kept.
-enum Life {
-    Forgotten(FilmState),
+/// Film that is aged to what it is when it appears.
+struct Life {
+    course: Course,
+    settings: Arc<CoatingSettings>,
+    environment: Environment,
+}
+
+/// Course of a life, which is kept or not.
+enum Course {
+    Forgotten(Box<FilmState>),
     Kept(Box<History>),
 }
 
 impl Life {
     /// Begins with `film`. With `history`, its past is kept in so many bytes of keyframes.
-    fn begin(film: FilmState, settings: &CoatingSettings, environment: Environment, history: Option<usize>) -> Self {
-        let Some(bytes) = history else { return Self::Forgotten(film) };
-        match History::new(film.clone(), settings.clone(), environment) {
-            Ok(mut history) => {
-                history.set_keyframe_bytes(bytes);
-                Self::Kept(Box::new(history))
-            }
-            // No film that was just built is like that; it goes on without a past.
-            Err(_) => Self::Forgotten(film),
-        }
+    fn begin(film: FilmState, settings: Arc<CoatingSettings>, history: Option<usize>) -> Self {
+        let environment = Environment::default();
+        let kept = history.and_then(|bytes| {
+            // No film that was just built is refused; if it were, it would go on without a past.
+            let mut history = History::new(film.clone(), CoatingSettings::clone(&settings), environment).ok()?;
+            history.set_keyframe_bytes(bytes);
+            Some(Course::Kept(Box::new(history)))
+        });
+        Self { course: kept.unwrap_or(Course::Forgotten(Box::new(film))), settings, environment }
     }
 
     fn film(&self) -> &FilmState {
-        match self {
-            Self::Forgotten(film) => film,
-            Self::Kept(history) => history.film(),
+        match &self.course {
+            Course::Forgotten(film) => film,
+            Course::Kept(history) => history.film(),
         }
     }
 
-    fn step(&mut self, settings: &CoatingSettings, environment: &Environment) {
-        match self {
-            Self::Forgotten(film) => film.step(settings, environment),
+    fn change(&mut self, environment: Environment) {
+        self.environment = environment;
+        if let Course::Kept(history) = &mut self.course {
+            history.record(Event::Environment(environment));
+        }
+    }
+
+    fn step(&mut self) {
+        match &mut self.course {
+            Course::Forgotten(film) => film.step(&self.settings, &self.environment),
             // The step is taken whether or not it can be kept.
-            Self::Kept(history) => history.step().unwrap_or_default(),
+            Course::Kept(history) => history.step().unwrap_or_default(),
         }
     }
 
     /// Returns the film and its past.
     fn end(self) -> (FilmState, Option<FilmHistory>) {
-        match self {
-            Self::Forgotten(film) => (film, None),
-            Self::Kept(history) => {
+        match self.course {
+            Course::Forgotten(film) => (*film, None),
+            Course::Kept(history) => {
                 let (history, film) = FilmHistory::of(*history);
                 (film, Some(history))
             }
@@ -187,7 +212,9 @@ mod tests {
             quality: SolverQuality::Default,
             scale: Vec3::ONE,
             metres_per_unit: 1.0,
-            past: Environment::default(),
+            past: vec![(start_age, Environment::default())],
+            target: None,
+            date: 0.0,
             shelter: None,
             saved: None,
             history: None,

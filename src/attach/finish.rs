@@ -6,7 +6,7 @@ use bevy::{
     asset::Assets,
     ecs::{
         entity::Entity,
-        system::{Commands, Query, ResMut},
+        system::{Commands, Query, Res, ResMut},
         world::World,
     },
     log::{error, warn},
@@ -21,6 +21,8 @@ use super::{
 };
 use crate::{
     api::{
+        calendar::CoatingCalendar,
+        clock::CoatingClock,
         coating::{Coating, FilmKey},
         error::{CoatingError, CoatingFault},
         film_pace::FilmPace,
@@ -30,7 +32,7 @@ use crate::{
         messages::{FilmFailed, FilmReady, RestoreFailed},
     },
     appearance::DisplayChanges,
-    sim::FilmState,
+    sim::{FilmClock, FilmState},
 };
 
 /// Puts finished films on their props.
@@ -40,6 +42,8 @@ pub(super) fn finish_builds(
     slots: Query<(&Mesh3d, &FilmSlot)>,
     coatings: Query<&Coating>,
     refused: Query<&FilmRefused>,
+    calendar: Res<CoatingCalendar>,
+    clock: Res<CoatingClock>,
     mut assets: ResMut<Assets<Mesh>>,
 ) {
     for (film, mut build, old) in &mut builds {
@@ -70,7 +74,10 @@ pub(super) fn finish_builds(
                 take_film(&mut commands, film);
                 refuse(&mut commands, film, root, meshes, &refused, fault);
             }
-            Ok(ready) => {
+            Ok(mut ready) => {
+                if coating.painted.is_some() {
+                    catch_up(&mut ready.film.clock, (calendar.date() - build.date) * coating.rate, &clock);
+                }
                 if old.is_some() {
                     take_film(&mut commands, film);
                 }
@@ -78,6 +85,13 @@ pub(super) fn finish_builds(
             }
         }
     }
+}
+
+/// Sends a film on by the `age` that has passed while it was built.
+fn catch_up(film: &mut FilmClock, age: f64, clock: &CoatingClock) {
+    let most = clock.checked_target().map_or(u64::MAX, |age| film.step_at(age));
+    let goal = film.step_at(film.age() + age).min(most);
+    film.goal = Some(goal).filter(|&goal| goal > film.steps);
 }
 
 /// Puts a finished film on its prop.

@@ -18,7 +18,8 @@ use crate::{api::stain_display::StainDisplay, display::CoatedMaterial};
 use crate::{
     api::{
         assets::{Waited, loaded},
-        clock::CoatingGravity,
+        calendar::CoatingCalendar,
+        clock::{CoatingClock, CoatingGravity},
         coating::{Coating, FilmKey, SettingsSource},
         error::CoatingFault,
         history::CoatingHistory,
@@ -44,17 +45,22 @@ pub(super) struct FilmInputs {
     pub scale: Vec3,
     /// Metres that a unit of the world is long.
     pub metres_per_unit: f32,
-    /// Gravity and weather of the film's past.
-    pub past: Environment,
-    /// Saved state in which the film is to begin.
-    pub saved: Option<Snapshot>,
+    /// Environments that the film has lived in, with the age that it gained in each.
+    pub past: Vec<(f64, Environment)>,
+    /// Age beyond which no film goes; it may begin there.
+    pub target: Option<f64>,
+    /// Date for which the past is told.
+    pub date: f64,
+    /// Saved state in which the film is to begin, and what it has lived in since.
+    pub saved: Option<(Snapshot, Vec<(f64, Environment)>)>,
     /// Memory for keyframes, in bytes, if the film's past is to be kept.
     pub history: Option<usize>,
     /// Meshes that may shelter the film; `None` without rain and sun, or if the coating does not ask for shelters.
     pub shelter: Option<CastOrder>,
 }
 
-/// Collects the inputs of a build; `None` while assets are loading or shelters are not known.
+/// Collects the inputs of a build; `None` while assets are loading or shelters are not known. `saved` is the state in
+/// which the film is to begin, with the date at which it was saved.
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be coated.
@@ -64,6 +70,7 @@ pub(super) fn inputs_of(
     root: Entity,
     slots: &[Entity],
     coating: &Coating,
+    saved: Option<(Snapshot, f64)>,
 ) -> Waited<FilmInputs> {
     coating.validate()?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
@@ -90,6 +97,15 @@ pub(super) fn inputs_of(
     let past = coating.key().past_weather.unwrap_or_default();
     // Rays are cast for the past if it needs them, else for today, so that the film need not wait for them later.
     let cast_for = if past.reaches_anything() { past } else { today };
+    let calendar = world.get_resource::<CoatingCalendar>().cloned().unwrap_or_default();
+    // Today's rate is taken for all of the past.
+    let since = |date: f64| {
+        let lived = calendar.since(date, past, gravity, &transform).into_iter();
+        lived.map(|(age, environment)| (age * coating.rate, environment))
+    };
+    let mut lived = vec![(coating.start_age, past.environment(gravity, &transform))];
+    lived.extend(coating.painted.into_iter().flat_map(since));
+    let saved = saved.map(|(state, date)| (state, coating.painted.map(|_| since(date).collect()).unwrap_or_default()));
     let mut shelter = None;
     if coating.shelter == Shelter::Scene
         && cast_for.reaches_anything()
@@ -108,8 +124,10 @@ pub(super) fn inputs_of(
         quality: coating.quality,
         scale: scale * metres_per_unit,
         metres_per_unit,
-        past: past.environment(gravity, &transform),
-        saved: None,
+        past: lived,
+        date: calendar.date(),
+        target: world.get_resource::<CoatingClock>().and_then(CoatingClock::checked_target),
+        saved,
         history: world.get::<CoatingHistory>(root).map(|history| history.keyframe_bytes),
         shelter,
     }))

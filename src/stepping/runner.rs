@@ -23,6 +23,7 @@ use super::{
 use crate::{
     api::{
         budget::CoatingBudget,
+        calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         display_cost::DisplayCost,
         film_pace::FilmPace,
@@ -63,7 +64,7 @@ pub(crate) fn advance(
     let budget = world.resource::<DisplayCost>().leaves(*world.resource::<CoatingBudget>());
     let max_steps = u64::from(budget.max_steps.max(1));
     let seconds = world.get_resource::<Time>().map_or(0.0, Time::delta_secs_f64);
-    let age = plan(world, films, max_steps, seconds);
+    let (age, passes) = plan(world, films, max_steps, seconds);
     plan_budget(world, budget_films, cameras, budget);
     let mut time = FrameTime::new(films.iter(world).map(|(pace, ..)| pace), max_steps);
     while time.begin_round() {
@@ -88,13 +89,16 @@ pub(crate) fn advance(
     status.refused = refused.iter(world).count();
     status.renewing = outdated.iter(world).count();
     status.age_per_second = world.resource_mut::<ReachedPace>().add(age * time.now(), seconds);
+    let (weather, gravity) = (*world.resource::<CoatingWeather>(), *world.resource::<CoatingGravity>());
+    // Where nothing ages, time passes all the same.
+    world.resource_mut::<CoatingCalendar>().pass(if age > 0.0 { age * time.now() } else { passes }, weather, gravity);
     let mut current = world.resource_mut::<CoatingStatus>();
     current.set_if_neq(status);
 }
 
 /// Plans the steps of each film in this frame from the clock and the requested steps. Returns the age that the frame is
-/// worth, 0 if no film ages.
-fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> f64 {
+/// worth, 0 if no film ages, and the age that the clock asked for.
+fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> (f64, f64) {
     let gravity = *world.resource::<CoatingGravity>();
     let weather = *world.resource::<CoatingWeather>();
     let (clock, requested) = {
@@ -126,7 +130,7 @@ fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> f
         pace.planned = pace.account.due(1.0).min(max_steps);
         pace.held &= pace.planned > 0;
     }
-    if any { age } else { 0.0 }
+    (if any { age } else { 0.0 }, wanted)
 }
 
 /// Ends the frame at `time` for all films, and returns the counts for [`CoatingStatus`].

@@ -138,6 +138,11 @@ impl FilmHistory {
         }
     }
 
+    /// Takes over how far the film has been with the history `other`, from which this one comes.
+    pub(super) fn has_been_at(&mut self, other: &Self) {
+        self.last = self.last.max(other.last);
+    }
+
     /// Returns whether a film at `step` is as far as it has ever been.
     pub(super) fn is_new(&self, step: u64) -> bool {
         step >= self.last

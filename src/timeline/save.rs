@@ -5,6 +5,7 @@ use bevy::ecs::{entity::Entity, hierarchy::Children, world::World};
 use super::{path::written_path, whole_film::copy_of};
 use crate::{
     api::{
+        calendar::CoatingCalendar,
         coating::Coating,
         links::{AwaitingFilm, CoatedBy},
         seed::CoatingSeed,
@@ -36,7 +37,8 @@ impl CoatingSnapshot {
         }
         films.sort_by(|a, b| a.path.cmp(&b.path));
         let drawn = world.get::<CoatingSeed>(root).map(|seed| seed.0);
-        Ok(Self { seed: coating.seed.or(drawn).unwrap_or_default(), films })
+        let date = world.get_resource::<CoatingCalendar>().map_or(0.0, CoatingCalendar::date);
+        Ok(Self { seed: coating.seed.or(drawn).unwrap_or_default(), date, films })
     }
 }
 

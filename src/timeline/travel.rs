@@ -8,8 +8,8 @@ use bevy::{
         entity::Entity,
         lifecycle::RemovedComponents,
         message::MessageWriter,
-        query::With,
-        system::{Commands, Local, Query, Res},
+        query::QueryData,
+        system::{Commands, Query, Res, ResMut},
     },
     log::warn,
     tasks::futures::check_ready,
@@ -22,10 +22,12 @@ use super::{
 };
 use crate::{
     api::{
-        clock::CoatingClock,
+        calendar::CoatingCalendar,
+        clock::{CoatingClock, CoatingGravity},
         history::CoatingHistory,
         links::CoatedBy,
         messages::{AgeReached, RestoreFailed},
+        weather::CoatingWeather,
     },
     appearance::DisplayChanges,
     history::Conditions,
@@ -53,147 +55,169 @@ pub(crate) fn follow_histories(
 }
 
 /// Everything of a film that travels.
-type Traveller = (
-    Entity,
-    &'static CoatedBy,
-    WholeFilm,
-    Option<&'static mut FilmHistory>,
-    Option<&'static mut FilmJourney>,
-    Option<&'static FilmWish>,
-    &'static mut DisplayChanges,
-    &'static mut FilmShelter,
-);
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(crate) struct Traveller {
+    entity: Entity,
+    coated_by: &'static CoatedBy,
+    film: WholeFilm,
+    history: Option<&'static mut FilmHistory>,
+    journey: Option<&'static mut FilmJourney>,
+    wish: Option<&'static FilmWish>,
+    display: &'static mut DisplayChanges,
+    shelter: &'static mut FilmShelter,
+}
 
 /// Puts films on their props that have come to their goals, and sends others on their way.
 pub(crate) fn travel(
     mut commands: Commands,
     mut films: Query<Traveller>,
     wanted: Query<&CoatingHistory>,
-    histories: Query<(), With<FilmHistory>>,
-    clock: Res<CoatingClock>,
+    mut clock: ResMut<CoatingClock>,
+    mut calendar: ResMut<CoatingCalendar>,
+    weather: Res<CoatingWeather>,
+    gravity: Res<CoatingGravity>,
     mut reached: MessageWriter<AgeReached>,
     mut failed: MessageWriter<RestoreFailed>,
-    mut told: Local<Vec<Entity>>,
 ) {
     let target = clock.checked_target();
-    for (entity, &CoatedBy(root), mut film, mut history, mut under_way, wish, mut display, mut shelter) in &mut films {
-        if let Some(way) = &mut under_way {
+    let skipped = clock.bypass_change_detection().take_skip();
+    calendar.pass(skipped, *weather, *gravity);
+    for mut film in &mut films {
+        film.skip(skipped, target);
+        let (entity, root) = (film.entity, film.coated_by.0);
+        if let Some(way) = &mut film.journey {
             let Some(result) = check_ready(&mut way.task) else { continue };
             commands.entity(entity).try_remove::<FilmJourney>();
             let goal = way.goal;
             match result {
                 Ok(arrival) => {
-                    let arrived = arrive(&mut film, *arrival, goal, &mut history, &mut shelter);
-                    if let Some(new) = arrived {
-                        commands.entity(entity).try_insert(new);
+                    if let Some(history) = film.arrive(*arrival, goal) {
+                        commands.entity(entity).try_insert(history);
                     }
                     if goal != Goal::History {
-                        display.bypass_change_detection().restart();
-                        reached.write(AgeReached { entity, root, age: film.clock.age() });
+                        reached.write(AgeReached { entity, root, age: film.film.clock.age() });
                     }
                 }
                 Err(error) => {
                     // The same way would fail again.
-                    film.clock.bypass_change_detection().goal = None;
+                    film.film.clock.bypass_change_detection().goal = None;
                     warn!("film {entity} stays as it is: {error}");
                     failed.write(RestoreFailed { entity, root, error: Arc::new(error) });
                 }
             }
-            // Another goal may have been set meanwhile; the history is there in the next frame.
-            film.pace.bypass_change_detection().travels = film.clock.goal.is_some();
+            // Another goal may have been set meanwhile.
+            film.film.pace.bypass_change_detection().travels = film.film.clock.goal.is_some();
             continue;
         }
         let keeps = wanted.get(root).ok().map(|wanted| wanted.keyframe_bytes);
-        let step = film.clock.steps;
-        if keeps.is_some()
-            && let Some(age) = target
-            && film.clock.step_at(age) < step
-            && film.clock.goal.is_none()
-        {
-            film.clock.bypass_change_detection().goal = Some(film.clock.step_at(age));
+        if keeps.is_some() {
+            film.turn_back_at(target);
         }
-        let way = if let Some(FilmWish(saved)) = wish {
+        if film.film.clock.goal == Some(film.film.clock.steps) {
+            film.film.clock.bypass_change_detection().goal = None;
+            reached.write(AgeReached { entity, root, age: film.film.clock.age() });
+        }
+        if film.wish.is_some() {
             commands.entity(entity).try_remove::<FilmWish>();
-            film.clock.bypass_change_detection().goal = None;
-            Some(journey::go_to_saved(saved.clone(), film.state(), conditions_of(&film), keeps))
-        } else if let Some(bytes) = keeps
-            && history.is_none()
-        {
-            Some(journey::stay(film.state(), conditions_of(&film), bytes))
-        } else {
-            match film.clock.goal {
-                None => None,
-                Some(goal) if goal == step => {
-                    film.clock.bypass_change_detection().goal = None;
-                    reached.write(AgeReached { entity, root, age: film.clock.age() });
-                    None
-                }
-                Some(goal) => match &mut history {
-                    Some(history) => {
-                        let (pace, exposure) = (&*film.pace, &film.stains.exposure);
-                        // What acts on the film now is what acts on it on the way to where it has not been.
-                        if goal > step && history.is_new(step) {
-                            history.bypass_change_detection().note(step, pace, exposure);
-                        }
-                        let state = || film.state();
-                        Some(journey::go_through(&history.past, &history.now, step, state, goal))
-                    }
-                    None if goal > step => {
-                        let (settings, environment) = (film.pace.settings.clone(), film.pace.environment);
-                        Some(journey::go_on(film.state(), settings, environment, goal))
-                    }
-                    None => {
-                        film.clock.bypass_change_detection().goal = None;
-                        if !told.contains(&entity) {
-                            told.push(entity);
-                            warn!(
-                                "film {entity} cannot go back in time, as it keeps no history: insert \
-                                 `CoatingHistory` beside its `Coating`"
-                            );
-                        }
-                        None
-                    }
-                },
-            }
-        };
-        film.pace.bypass_change_detection().travels = way.is_some();
+        }
+        let way = film.set_out(keeps);
+        film.film.pace.bypass_change_detection().travels = way.is_some();
         if let Some(way) = way {
             commands.entity(entity).try_insert(way);
         }
     }
-    told.retain(|&film| !histories.contains(film) && films.contains(film));
 }
 
-/// Returns the conditions under which `film` takes its next step.
-fn conditions_of(film: &WholeFilmItem) -> Conditions {
-    Conditions { settings: CoatingSettings::clone(&film.pace.settings), environment: film.pace.environment }
-}
+impl TravellerItem<'_, '_> {
+    /// Sends the film on by `age` of the calendar, at most to the `target` of all films.
+    fn skip(&mut self, age: f64, target: Option<f64>) {
+        let WholeFilmItem { clock, pace, .. } = &mut self.film;
+        let clock = clock.bypass_change_detection();
+        let steps = age * pace.rate * f64::from(clock.steps_per_age);
+        if pace.paused || steps < 1.0 {
+            return;
+        }
+        let from = clock.goal.unwrap_or(clock.steps);
+        // The conversion saturates.
+        let goal = from.saturating_add(steps as u64).min(target.map_or(u64::MAX, |age| clock.step_at(age).max(from)));
+        clock.goal = Some(goal).filter(|&goal| goal != clock.steps);
+    }
 
-/// Puts a film that has arrived in the place of the one that set out. Returns its history, if that is new to it.
-fn arrive(
-    film: &mut WholeFilmItem,
-    arrival: Arrival,
-    goal: Goal,
-    history: &mut Option<bevy::ecs::change_detection::Mut<FilmHistory>>,
-    shelter: &mut FilmShelter,
-) -> Option<FilmHistory> {
-    let Arrival { film: state, history: new } = arrival;
-    if goal != Goal::History {
-        if state.stains.exposure != film.stains.exposure {
-            // What was known of rain and sun then is not what is known now.
-            *shelter = FilmShelter { choice: shelter.choice, ..FilmShelter::default() };
-        }
-        film.replace(state);
+    /// Sends a film that is older than the `target` of all films back to it.
+    fn turn_back_at(&mut self, target: Option<f64>) {
+        let clock = self.film.clock.bypass_change_detection();
+        let step = target.map(|age| clock.step_at(age)).filter(|&step| step < clock.steps);
+        clock.goal = clock.goal.or(step);
     }
-    // A film that came as near to its goal as its history reaches has come to it.
-    if matches!(goal, Goal::Step(step) if film.clock.goal == Some(step)) {
-        film.clock.goal = None;
-    }
-    match (history, new) {
-        (Some(old), Some(new)) => {
-            **old = new;
-            None
+
+    /// Begins the way to what is wanted of the film, if anything is. With `keeps`, its past is to be kept in so many
+    /// bytes of keyframes.
+    fn set_out(&mut self, keeps: Option<usize>) -> Option<FilmJourney> {
+        let Self { entity, film, history, wish, .. } = self;
+        let conditions =
+            || Conditions { settings: CoatingSettings::clone(&film.pace.settings), environment: film.pace.environment };
+        if let Some(FilmWish(saved)) = wish {
+            let way = journey::go_to_saved(saved.clone(), film.state(), conditions(), keeps);
+            film.clock.bypass_change_detection().goal = None;
+            return Some(way);
         }
-        (_, new) => new,
+        if let Some(bytes) = keeps
+            && history.is_none()
+        {
+            return Some(journey::stay(film.state(), conditions(), bytes));
+        }
+        let step = film.clock.steps;
+        let goal = film.clock.goal?;
+        match history {
+            Some(history) => {
+                // What acts on the film now is what acts on it on the way to where it has not been.
+                if goal > step && history.is_new(step) {
+                    history.bypass_change_detection().note(step, &film.pace, &film.stains.exposure);
+                }
+                Some(journey::go_through(&history.past, &history.now, step, || film.state(), goal))
+            }
+            None if goal > step => {
+                let (settings, environment) = (film.pace.settings.clone(), film.pace.environment);
+                Some(journey::go_on(film.state(), settings, environment, goal))
+            }
+            None => {
+                film.clock.bypass_change_detection().goal = None;
+                warn!(
+                    "film {entity} cannot go back in time, as it keeps no history: insert `CoatingHistory` beside its \
+                     `Coating`"
+                );
+                None
+            }
+        }
+    }
+
+    /// Puts a film that has arrived at `goal` in the place of the one that set out. Returns its history, if that is new
+    /// to it.
+    fn arrive(&mut self, arrival: Arrival, goal: Goal) -> Option<FilmHistory> {
+        let Self { film, history, display, shelter, .. } = self;
+        let Arrival { film: state, history: mut new } = arrival;
+        if goal != Goal::History {
+            if state.stains.exposure != film.stains.exposure {
+                // What was known of rain and sun then is not what is known now.
+                **shelter = FilmShelter { choice: shelter.choice, ..FilmShelter::default() };
+            }
+            film.replace(state);
+            display.bypass_change_detection().restart();
+        }
+        if let Goal::Step(step) = goal {
+            // A film that came as near to its goal as its history reaches has come to it.
+            film.clock.goal = film.clock.goal.filter(|&goal| goal != step);
+            if let (Some(old), Some(new)) = (&history, &mut new) {
+                new.has_been_at(old);
+            }
+        }
+        match (history, new) {
+            (Some(old), Some(new)) => {
+                **old = new;
+                None
+            }
+            (_, new) => new,
+        }
     }
 }

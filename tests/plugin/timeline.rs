@@ -295,3 +295,90 @@ fn rain_and_sun_are_known_again_after_going_back() {
     app.world_mut().resource_mut::<CoatingClock>().request_steps(10);
     update_until(&mut app, |app| sheltered(app) && steps(app, plate) == 20);
 }
+
+#[test]
+fn props_that_come_late_are_as_old_as_those_that_were_there() {
+    let mut app = app();
+    let coating = || quick_coating().with_seed(3).with_rate(0.5).with_painted(0.0);
+    let calendar = |app: &App| app.world().resource::<CoatingCalendar>().date();
+    let there = spawn_plate(&mut app, 8, coating());
+    wait_for_films(&mut app, 1);
+    assert_eq!((steps(&app, there), calendar(&app)), (0, 0.0));
+    let run = |app: &mut App, frames: u32| {
+        app.world_mut().resource_mut::<CoatingClock>().paused = false;
+        app.world_mut().resource_mut::<CoatingClock>().age_per_second = 0.4;
+        (0..frames).for_each(|_| app.update());
+        app.world_mut().resource_mut::<CoatingClock>().paused = true;
+    };
+    run(&mut app, 20);
+    app.world_mut().resource_mut::<CoatingWeather>().wind = Vec3::X * 2.0;
+    app.update();
+    run(&mut app, 40);
+    assert!((calendar(&app) - 1.2).abs() < 0.02, "{}", calendar(&app));
+    assert!((58..=60).contains(&steps(&app, there)), "{}", steps(&app, there));
+    let late = spawn_plate(&mut app, 8, coating());
+    wait_for_films(&mut app, 2);
+    assert!(steps(&app, late).abs_diff(steps(&app, there)) <= 1);
+    // The weather changed at the same age, give or take a step, so that the same has become of it.
+    let cracks = |app: &App, film| film_state(app, film).forces.torn_edges as f64;
+    assert!((cracks(&app, late) / cracks(&app, there) - 1.0).abs() < 0.1);
+
+    // One that is saved, away for a while and back.
+    let snapshot = CoatingSnapshot::of(app.world(), late).expect("a film that can be saved");
+    app.world_mut().entity_mut(late).despawn();
+    run(&mut app, 20);
+    let mesh = add_mesh(&mut app, plate(8));
+    let back = app.world_mut().spawn((Mesh3d(mesh.clone()), coating(), snapshot.clone())).id();
+    wait_for_films(&mut app, 2);
+    assert!(steps(&app, back).abs_diff(steps(&app, there)) <= 1, "{} {}", steps(&app, back), steps(&app, there));
+    // Without a date it is as it was saved.
+    let coating = Coating { painted: None, ..coating() };
+    let kept = app.world_mut().spawn((Mesh3d(mesh), coating, snapshot)).id();
+    wait_for_films(&mut app, 3);
+    assert!((58..=60).contains(&steps(&app, kept)));
+}
+
+#[test]
+fn what_passes_while_a_film_is_built_is_caught_up_with() {
+    let mut app = app();
+    app.world_mut().resource_mut::<CoatingClock>().age_per_second = 0.2;
+    let plate = spawn_plate(&mut app, 8, quick_coating().with_painted(-0.5));
+    update_until(&mut app, |app| app.world().get::<FilmMesh>(plate).is_some());
+    for _ in 0..40 {
+        app.update();
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let date = app.world().resource::<CoatingCalendar>().date();
+    let behind = (date + 0.5) * 100.0 - steps(&app, plate) as f64;
+    assert!((0.0..4.0).contains(&behind), "{behind} steps");
+    // A target holds for what is spawned late, too; a start age is what it is.
+    app.world_mut().resource_mut::<CoatingClock>().target_age = Some(0.3);
+    let late = spawn_plate(&mut app, 8, quick_coating().with_painted(-9.0));
+    let old = spawn_plate(&mut app, 8, quick_coating().with_painted(-9.0).with_start_age(0.4));
+    wait_for_films(&mut app, 3);
+    app.update();
+    assert_eq!((steps(&app, late), steps(&app, old)), (30, 40));
+    app.world_mut().resource_mut::<CoatingClock>().target_age = None;
+    let ancient = spawn_plate(&mut app, 4, quick_coating().with_painted(-1e300));
+    wait_for_films(&mut app, 4);
+    assert_eq!(steps(&app, ancient), 1000, "10 of age at most");
+}
+
+#[test]
+fn years_pass_in_a_night() {
+    let mut app = app();
+    let [plate, slow, paused] = [1.0, 0.5, 1.0].map(|rate| spawn_plate(&mut app, 8, quick_coating().with_rate(rate)));
+    wait_for_films(&mut app, 3);
+    app.world_mut().get_mut::<Coating>(paused).expect("a coating").paused = true;
+    app.update();
+    for age in [f64::NAN, f64::INFINITY, -1.0, 0.4] {
+        app.world_mut().resource_mut::<CoatingClock>().skip(age);
+    }
+    update_until(&mut app, |app| steps(app, plate) == 40 && steps(app, slow) == 20);
+    assert_eq!(app.world().resource::<CoatingCalendar>().date(), 0.4);
+    app.world_mut().resource_mut::<CoatingClock>().target_age = Some(0.5);
+    app.world_mut().resource_mut::<CoatingClock>().skip(0.4);
+    update_until(&mut app, |app| steps(app, plate) == 50 && steps(app, slow) == 40);
+    app.update();
+    assert_eq!((steps(&app, paused), app.world().resource::<CoatingStatus>().seeking), (0, 0));
+}

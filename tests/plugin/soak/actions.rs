@@ -34,9 +34,15 @@ pub enum Action {
     Request,
     Break,
     Mend,
+    Travel,
+    Skip,
+    History,
+    Save,
+    Restore,
+    Respawn,
 }
 
-const ALL: [Action; 20] = [
+const ALL: [Action; 26] = [
     Action::Spawn,
     Action::Clone,
     Action::Despawn,
@@ -57,6 +63,12 @@ const ALL: [Action; 20] = [
     Action::Request,
     Action::Break,
     Action::Mend,
+    Action::Travel,
+    Action::Skip,
+    Action::History,
+    Action::Save,
+    Action::Restore,
+    Action::Respawn,
 ];
 
 /// All actions but those that the environment leaves out.
@@ -144,6 +156,45 @@ impl Soak {
             }
             Action::Break => self.break_prop(root),
             Action::Mend => self.mend(root),
+            Action::Travel => {
+                let age = self.rng.random_range(0.0..1.5);
+                self.oracle.allow_travel(root);
+                self.app.world_mut().commands().entity(root).age_to(age);
+            }
+            Action::Skip => {
+                let age = self.rng.random_range(0.0..0.1);
+                for root in roots {
+                    self.oracle.allow_travel(root);
+                }
+                self.app.world_mut().resource_mut::<CoatingClock>().skip(age);
+            }
+            Action::History => {
+                self.oracle.allow_travel(root);
+                let mut prop = self.app.world_mut().entity_mut(root);
+                if prop.take::<CoatingHistory>().is_none() {
+                    prop.insert(CoatingHistory { keyframe_bytes: 1 << 18 });
+                }
+            }
+            Action::Save => {
+                if let Ok(snapshot) = CoatingSnapshot::of(self.app.world(), root) {
+                    self.saved.push((root, snapshot));
+                }
+            }
+            Action::Restore => {
+                // Also on props that have got other films since: they refuse it.
+                let Some((saved, snapshot)) = one(&mut self.rng, &self.saved) else { return };
+                let root = if self.rng.random_bool(0.8) { saved } else { root };
+                if self.app.world().get::<Coating>(root).is_some() {
+                    self.oracle.allow_travel(root);
+                    self.app.world_mut().commands().entity(root).restore_films(snapshot);
+                }
+            }
+            Action::Respawn => {
+                let Some((_, snapshot)) = one(&mut self.rng, &self.saved) else { return };
+                self.rebuilt(root);
+                let coating = self.app.world_mut().entity_mut(root).take::<Coating>().expect("a coating");
+                self.app.world_mut().entity_mut(root).insert((coating, snapshot));
+            }
         }
     }
 

@@ -2,13 +2,13 @@
 //! random order, and after every frame the state of the app is compared with what the clock and the hierarchy say.
 //!
 //! `COATING_SOAK_SEED=7` runs one seed, `COATING_SOAK_WITHOUT=Clone,Swap` leaves actions out, to find the one that is
-//! to blame.
+//! to blame. `COATING_SOAK_MINUTES=60` goes on for an hour, and tells how much memory the program takes.
 
 mod actions;
 mod oracle;
 mod props;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use bevy::{prelude::*, time::TimeUpdateStrategy};
 use bevy_coating::prelude::*;
@@ -31,11 +31,40 @@ fn props_survive_whatever_happens_to_them() {
         Ok(seed) => vec![seed.parse().expect("a number in COATING_SOAK_SEED")],
         Err(_) => SEEDS.collect(),
     };
+    if let Ok(minutes) = std::env::var("COATING_SOAK_MINUTES") {
+        let minutes: f32 = minutes.parse().expect("a number in COATING_SOAK_MINUTES");
+        return go_on(Duration::from_secs_f32(60.0 * minutes));
+    }
     for seed in seeds {
         // Shown when the test fails.
         println!("seed {seed}: run it alone with COATING_SOAK_SEED={seed}");
         run(seed);
     }
+}
+
+/// Runs one app after the other until `time` is over. The memory of the program must not grow.
+fn go_on(time: Duration) {
+    let begin = Instant::now();
+    let mut most = Vec::new();
+    for seed in 1000.. {
+        if begin.elapsed() > time {
+            break;
+        }
+        run(seed);
+        let bytes = memory();
+        println!("{:5} s, seed {seed}: {} MiB", begin.elapsed().as_secs(), bytes >> 20);
+        most.push(bytes);
+    }
+    // The first apps warm up allocator and pools.
+    let half = most.len() / 2;
+    let [early, late] = [&most[..half], &most[half..]].map(|half| half.iter().copied().max().unwrap_or_default());
+    assert!(half < 4 || late < early + early / 4, "memory grows: {} to {} MiB", early >> 20, late >> 20);
+}
+
+/// Bytes of memory that this process takes; 0 where nobody knows.
+fn memory() -> usize {
+    let pages = std::fs::read_to_string("/proc/self/statm").ok();
+    pages.and_then(|pages| pages.split(' ').nth(1)?.parse::<usize>().ok()).unwrap_or_default() * 4096
 }
 
 /// An app that is looked at from outside, with what is expected of it.
@@ -44,6 +73,8 @@ struct Soak {
     rng: ChaCha8Rng,
     palette: Palette,
     oracle: Oracle,
+    /// Films that were saved, with the prop that they are of.
+    saved: Vec<(Entity, CoatingSnapshot)>,
 }
 
 fn run(seed: u64) {
@@ -56,7 +87,8 @@ fn run(seed: u64) {
         app.update();
     }
     let baseline = counts(&app);
-    let mut soak = Soak { app, rng: ChaCha8Rng::seed_from_u64(seed), palette, oracle: Oracle::default() };
+    let mut soak =
+        Soak { app, rng: ChaCha8Rng::seed_from_u64(seed), palette, oracle: Oracle::default(), saved: Vec::new() };
     for _ in 0..EPISODES {
         for _ in 0..FRAMES {
             if soak.rng.random_bool(0.4) {
@@ -107,7 +139,9 @@ impl Soak {
         self.mend_all();
         self.wait("films to be built", |status| (status.waiting, status.refused, status.renewing) == (0, 0, 0));
         self.app.world_mut().resource_mut::<CoatingClock>().paused = false;
-        self.wait("rays to be cast", |status| (status.casting, status.waiting, status.renewing) == (0, 0, 0));
+        self.wait("rays to be cast", |status| {
+            [status.casting, status.waiting, status.renewing, status.seeking] == [0; 4]
+        });
         self.oracle.compare_at_rest(&mut self.app);
         self.oracle.look_at_everything(&mut self.app);
     }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use bevy::prelude::*;
-use bevy_coating::{CoatingPart, film::FilmMesh, prelude::*};
+use bevy_coating::{CoatingPart, FilmPace, film::FilmMesh, prelude::*};
 
 use super::props::{self, ClonedAt, Shape};
 use crate::common::*;
@@ -35,6 +35,8 @@ struct Expected {
     waits: bool,
     /// Whether time passed for the film in this frame.
     runs: bool,
+    /// Number of frames for which the film may still be on its way to another age.
+    travels: u32,
 }
 
 impl Oracle {
@@ -45,6 +47,13 @@ impl Oracle {
     /// Returns the steps that the film on `root`, which has taken `steps`, is owed.
     pub fn owed(&self, root: Entity, steps: u64) -> f64 {
         self.films.get(&root).map_or(0.0, |film| (film.steps + film.ahead - steps as f64).max(0.0))
+    }
+
+    /// Notes that the films of `root` may go to other ages, or wait until their past is kept.
+    pub fn allow_travel(&mut self, root: Entity) {
+        for film in self.films.values_mut().filter(|film| film.root == root) {
+            film.travels = 4;
+        }
     }
 
     pub fn allow_rebuilding(&mut self, root: Entity) {
@@ -72,6 +81,10 @@ impl Oracle {
                 expected.steps += age * expected.rate * f64::from(film_clock.steps_per_age);
                 expected.steps += clock.requested_steps as f64;
             }
+            let is_back = clock.target_age.is_some_and(|age| film_clock.step_at(age) < film_clock.steps);
+            if is_back && world.get::<CoatingHistory>(expected.root).is_some() {
+                expected.travels = 4;
+            }
             if let Some(target) = clock.target_age {
                 // Neither does a film take steps beyond the target, nor is it owed any.
                 let last = film_clock.step_at(target).max(film_clock.steps) as f64;
@@ -95,6 +108,14 @@ impl Oracle {
         self.films.retain(|&film, _| app.world().get::<FilmMesh>(film).is_some());
         for (film, expected) in &mut self.films {
             let steps = app.world().get::<FilmClock>(*film).expect("a clock").steps as f64;
+            if expected.travels > 0 {
+                // What it was owed before it still is; time stands still for it on the way.
+                expected.ahead = expected.ahead.max(expected.steps - steps).max(0.0);
+                expected.steps = steps;
+                let is_away = app.world().get::<FilmPace>(*film).is_some_and(FilmPace::is_travelling);
+                expected.travels -= u32::from(!is_away);
+                continue;
+            }
             let most = expected.steps + expected.ahead;
             assert!(steps <= most + 1.001, "film {film} took {steps} steps: {expected:?}");
             let behind = steps < expected.steps - 1.001;
@@ -127,7 +148,10 @@ impl Oracle {
             let ahead = cloned.map_or(0.0, |cloned| cloned.owed);
             let rate = app.world().get::<Coating>(root).map_or(0.0, |coating| coating.rate);
             let rate = if (0.0..=1000.0).contains(&rate) { rate } else { 1.0 };
-            let expected = Expected { root, steps: clock.steps as f64, ahead, rate, waits: false, runs: false };
+            let keeps_past = app.world().get::<CoatingHistory>(root).is_some();
+            let travels = if keeps_past || clock.sought().is_some() { 4 } else { 0 };
+            let steps = clock.steps as f64;
+            let expected = Expected { root, steps, ahead, rate, waits: false, runs: false, travels };
             self.films.insert(film, expected);
         }
     }
