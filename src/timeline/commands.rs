@@ -53,7 +53,7 @@ pub trait CoatingCommands {
 
     /// Puts the films of the coating back into the states of `snapshot`, in the background.
     /// [`AgeReached`](crate::AgeReached) tells of each film that is back, [`RestoreFailed`] of each that cannot be:
-    /// it stays as it is. Films that are still being built begin there.
+    /// it stays as it is. Films that are still being built follow when they are ready.
     fn restore_films(&mut self, snapshot: CoatingSnapshot) -> &mut Self;
 }
 
@@ -125,8 +125,8 @@ impl EntityCommand for RestoreFilms {
         let snapshot = self.0;
         entity.world_scope(|world| {
             for film in below(world, root) {
-                let is_film = world.get::<CoatedBy>(film).is_some_and(|coated_by| coated_by.0 == root);
-                if is_film && world.get::<FilmSource>(film).is_some() {
+                // Films that are being built go there as soon as they are ready, those that are not yet begin there.
+                if world.get::<CoatedBy>(film).is_some_and(|coated_by| coated_by.0 == root) {
                     restore(world, root, film, &snapshot);
                 }
             }

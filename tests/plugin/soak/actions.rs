@@ -158,7 +158,7 @@ impl Soak {
             Action::Mend => self.mend(root),
             Action::Travel => {
                 let age = self.rng.random_range(0.0..1.5);
-                self.oracle.allow_travel(root);
+                self.oracle.wish(root);
                 self.app.world_mut().commands().entity(root).age_to(age);
             }
             Action::Skip => {
@@ -253,7 +253,7 @@ impl Soak {
         });
         self.rebuilt(clone);
         if let Some(steps) = steps {
-            self.app.world_mut().entity_mut(clone).insert(ClonedAt { steps, owed });
+            self.app.world_mut().entity_mut(clone).insert(ClonedAt { of: root, steps, owed });
         }
     }
 

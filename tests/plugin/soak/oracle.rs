@@ -17,6 +17,8 @@ pub struct Oracle {
     films: BTreeMap<Entity, Expected>,
     /// Coatings whose films may be built again, since something happened to them.
     rebuilding: BTreeSet<Entity>,
+    /// Coatings whose films go to another age when all of them are ready.
+    wishes: BTreeSet<Entity>,
     /// Last reason for which something could not be coated, by root.
     pub refusals: BTreeMap<Entity, String>,
 }
@@ -35,6 +37,8 @@ struct Expected {
     waits: bool,
     /// Whether time passed for the film in this frame.
     runs: bool,
+    /// Steps that this frame gave.
+    gain: f64,
     /// Number of frames for which the film may still be on its way to another age.
     travels: u32,
 }
@@ -54,6 +58,11 @@ impl Oracle {
         for film in self.films.values_mut().filter(|film| film.root == root) {
             film.travels = 4;
         }
+    }
+
+    /// Notes that the films of `root` go to another age, when all of them are ready.
+    pub fn wish(&mut self, root: Entity) {
+        self.wishes.insert(root);
     }
 
     pub fn allow_rebuilding(&mut self, root: Entity) {
@@ -76,11 +85,18 @@ impl Oracle {
             if (0.0..=1000.0).contains(&coating.rate) {
                 expected.rate = coating.rate;
             }
+            if expected.travels > 0 {
+                let taken = film_clock.steps as f64;
+                expected.ahead = (expected.steps + expected.ahead - taken).max(0.0);
+                expected.steps = taken;
+            }
+            let before = expected.steps;
             expected.runs = !coating.paused && age * expected.rate > 0.0;
             if !coating.paused {
                 expected.steps += age * expected.rate * f64::from(film_clock.steps_per_age);
                 expected.steps += clock.requested_steps as f64;
             }
+            expected.gain = expected.steps - before;
             let is_back = clock.target_age.is_some_and(|age| film_clock.step_at(age) < film_clock.steps);
             if is_back && world.get::<CoatingHistory>(expected.root).is_some() {
                 expected.travels = 4;
@@ -96,6 +112,13 @@ impl Oracle {
     /// Compares the steps of all films with those expected, and notes films that came and went.
     pub fn compare(&mut self, app: &mut App) {
         let casting = app.world().resource::<CoatingStatus>().casting > 0;
+        let waits = app.world().resource::<CoatingStatus>().waiting > 0;
+        for root in self.wishes.clone() {
+            self.allow_travel(root);
+            if !waits && self.has_films(root) {
+                self.wishes.remove(&root);
+            }
+        }
         let ready: Vec<FilmReady> = messages(app);
         for failed in messages::<FilmFailed>(app) {
             self.refusals.insert(failed.root, failed.error.to_string());
@@ -109,10 +132,11 @@ impl Oracle {
         for (film, expected) in &mut self.films {
             let steps = app.world().get::<FilmClock>(*film).expect("a clock").steps as f64;
             if expected.travels > 0 {
-                // What it was owed before it still is; time stands still for it on the way.
-                expected.ahead = expected.ahead.max(expected.steps - steps).max(0.0);
-                expected.steps = steps;
                 let is_away = app.world().get::<FilmPace>(*film).is_some_and(FilmPace::is_travelling);
+                // It may take what this frame gave, and what it was owed before, when it has arrived. Time stands still
+                // for it on the way.
+                expected.ahead += if is_away { 0.0 } else { expected.gain };
+                (expected.steps, expected.waits) = (steps, false);
                 expected.travels -= u32::from(!is_away);
                 continue;
             }
@@ -145,13 +169,18 @@ impl Oracle {
             if let Some(cloned) = cloned {
                 assert!(clock.steps >= cloned.steps, "a clone is as old as its original");
             }
-            let ahead = cloned.map_or(0.0, |cloned| cloned.owed);
+            // What the original was owed when it was asked for, or in the frame in which the clone was made.
+            let ahead = cloned.map_or(0.0, |cloned| {
+                let steps = app.world().get::<FilmClock>(cloned.of).map_or(u64::MAX, |clock| clock.steps);
+                cloned.owed.max(self.owed(cloned.of, steps))
+            });
             let rate = app.world().get::<Coating>(root).map_or(0.0, |coating| coating.rate);
             let rate = if (0.0..=1000.0).contains(&rate) { rate } else { 1.0 };
-            let keeps_past = app.world().get::<CoatingHistory>(root).is_some();
-            let travels = if keeps_past || clock.sought().is_some() { 4 } else { 0 };
+            let root_entity = app.world().entity(root);
+            let may_travel = root_entity.contains::<CoatingHistory>() || root_entity.contains::<CoatingSnapshot>();
+            let travels = if may_travel || clock.sought().is_some() { 4 } else { 0 };
             let steps = clock.steps as f64;
-            let expected = Expected { root, steps, ahead, rate, waits: false, runs: false, travels };
+            let expected = Expected { root, steps, ahead, rate, waits: false, runs: false, gain: 0.0, travels };
             self.films.insert(film, expected);
         }
     }

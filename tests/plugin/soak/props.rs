@@ -50,6 +50,7 @@ pub enum Trouble {
 /// State of the original when a prop was cloned, on the clone's root, as long as nothing else happened to it.
 #[derive(Component, Clone, Copy)]
 pub struct ClonedAt {
+    pub of: Entity,
     pub steps: u64,
     /// Steps that the original was owed, as it had to wait. The clone is owed them, too.
     pub owed: f64,
