@@ -66,6 +66,17 @@ pub(crate) trait Coder: Bits {
         [&mut v.x, &mut v.y, &mut v.z].into_iter().for_each(|x| self.plain_float(x));
     }
 
+    /// Codes a number of 64 bits that is likely small.
+    fn long(&mut self, list: &mut Differences, long: &mut u64) {
+        let small = u32::try_from(*long).unwrap_or(u32::MAX);
+        let small = self.difference(list, small);
+        if small == u32::MAX {
+            self.plain_long(long);
+        } else {
+            *long = u64::from(small);
+        }
+    }
+
     /// Codes a length, which may be at most `most`; `part` names what it is the length of.
     ///
     /// # Errors

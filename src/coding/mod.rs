@@ -12,12 +12,14 @@
 //! | differences of any size | `difference` |
 //! | single bits, written or read | `bits` |
 //! | what a part of a film codes itself with | `coder` |
+//! | coded bytes as serde data | `serial` |
 
 mod bits;
 mod coder;
 mod difference;
 mod odds;
 mod range_coder;
+mod serial;
 #[cfg(test)]
 mod tests;
 
@@ -26,3 +28,4 @@ pub(crate) use coder::Coder;
 pub(crate) use difference::Differences;
 pub(crate) use odds::Odds;
 pub(crate) use range_coder::{Reader, Writer};
+pub(crate) use serial::deserialize_bytes;

@@ -37,6 +37,11 @@ impl Keyframes {
         self.bytes
     }
 
+    /// Returns the first keyframe, where the history begins.
+    pub fn first(&self) -> Option<&Keyframe> {
+        self.list.first()
+    }
+
     /// Returns the step of the last keyframe.
     pub fn last_step(&self) -> u64 {
         self.list.last().map_or(0, |last| last.step)

@@ -3,11 +3,12 @@
 mod digest;
 mod error;
 mod film_snapshot;
-mod header;
+pub(crate) mod header;
 mod serial;
 
 #[cfg(test)]
 mod tests;
 
+pub(crate) use digest::MeshName;
 pub use error::SnapshotError;
 pub use film_snapshot::Snapshot;

@@ -71,8 +71,8 @@ fn sliver(face: &Face, positions: &[Vec3], tolerance: f64) -> Option<Sliver> {
     if thickness > 1.0 { None } else { Some(shape) }
 }
 
-/// Returns whether the face has so little area that it can only be there to fill a gap. Rounding of its corners may have
-/// made a little more of it than of a triangle without area.
+/// Returns whether the face has so little area that it can only be there to fill a gap. Rounding of its corners may
+/// have made a little more of it than of a triangle without area.
 pub(super) fn is_filler(face: &Face, positions: &[Vec3], tolerance: f64) -> bool {
     shape(face, positions, tolerance).1 <= FILLER
 }

@@ -308,7 +308,8 @@ fn base_mesh(kind: u8) -> Surface {
     }
 }
 
-/// A cube somewhere, with T-junctions on T-junctions, each filled with a triangle without area, and needles beside them.
+/// A cube somewhere, with T-junctions on T-junctions, each filled with a triangle without area, and needles beside
+/// them.
 fn cube_with_junctions(seed: u64, junctions: usize, offset: f32) -> Surface {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let axis = Vec3::new(rng.random(), rng.random(), rng.random::<f32>() + 0.1).normalize();
