@@ -171,12 +171,10 @@ impl Bits for Reader<'_> {
     fn bit(&mut self, odds: &mut Odds, _: bool) -> bool {
         let bound = (self.range >> PRECISION) * odds.of_zero();
         let bit = self.code >= bound;
-        if bit {
-            self.code -= bound;
-            self.range -= bound;
-        } else {
-            self.range = bound;
-        }
+        // Without a branch, which nobody could foretell.
+        let mask = u32::from(bit).wrapping_neg();
+        self.code -= bound & mask;
+        self.range = ((self.range - bound) & mask) | (bound & !mask);
         odds.learn(bit);
         while self.range < LEAST {
             self.range <<= 8;

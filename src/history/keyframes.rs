@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-/// Least number of steps between two keyframes: to restore one takes about as long as so many steps.
-const LEAST_PACE: u64 = 20;
+/// Least number of steps between two keyframes: to write or restore one takes about as long as so many steps.
+const LEAST_PACE: u64 = 10;
 
 /// State of a film after so many steps.
 #[derive(Clone, Debug)]
