@@ -14,6 +14,16 @@
 //! | what a part of a film codes itself with | `coder` |
 //! | coded bytes as serde data | `serial` |
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 mod bits;
 mod coder;
 mod difference;

@@ -114,6 +114,7 @@ fn remove_left(folder: &Path, prefix: &str) {
 }
 
 /// Creates a file that was not there, and locks it.
+#[expect(clippy::cast_possible_truncation, reason = "any number will do that differs from moment to moment")]
 fn create(folder: &Path, prefix: &str) -> io::Result<(File, PathBuf)> {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     let seed = now.as_nanos() as u64 ^ u64::from(process::id()).rotate_left(32);

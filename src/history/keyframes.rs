@@ -100,7 +100,7 @@ impl Keyframes {
     /// that gaps are about even.
     fn thin(&mut self) {
         while self.bytes > self.budget && self.list.len() > 1 {
-            let gaps = self.list.windows(3).map(|three| three[2].step - three[0].step);
+            let gaps = self.list.windows(3).filter_map(|three| Some(three.last()?.step - three.first()?.step));
             // With two left there is no gap between others.
             let least = gaps.enumerate().min_by_key(|&(i, gap)| (gap, i)).map_or(1, |(i, _)| i + 1);
             self.bytes -= self.list.remove(least).state.len();

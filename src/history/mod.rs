@@ -8,6 +8,16 @@
 //! A [`Recording`] is the same past as bytes: the beginning and the log. It is replayed on another machine, in the time
 //! that all steps take.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 mod conditions;
 mod event;
 mod film_history;
