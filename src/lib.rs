@@ -109,7 +109,7 @@
 #![cfg_attr(not(feature = "plugin"), doc = "[`StainDisplay`]: https://docs.rs/bevy_coating")]
 #![warn(missing_docs)]
 // Invalid input from a user must end in a typed error, never in a panic.
-#![warn(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::unreachable)]
+#![deny(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::unreachable)]
 
 #[cfg(feature = "plugin")]
 mod api;

@@ -44,8 +44,7 @@ pub(crate) trait Coder: Bits {
 
     /// Codes a number of 64 bits of which nothing is known.
     fn plain_long(&mut self, long: &mut u64) {
-        let low = self.plain(*long as u32, 32);
-        let high = self.plain((*long >> 32) as u32, 32);
+        let [low, high] = halves(*long).map(|half| self.plain(half, 32));
         *long = u64::from(low) | u64::from(high) << 32;
     }
 
@@ -66,12 +65,24 @@ pub(crate) trait Coder: Bits {
         [&mut v.x, &mut v.y, &mut v.z].into_iter().for_each(|x| self.plain_float(x));
     }
 
+    /// Codes a number of 64 bits that is likely small.
+    fn long(&mut self, list: &mut Differences, long: &mut u64) {
+        let small = u32::try_from(*long).unwrap_or(u32::MAX);
+        let small = self.difference(list, small);
+        if small == u32::MAX {
+            self.plain_long(long);
+        } else {
+            *long = u64::from(small);
+        }
+    }
+
     /// Codes a length, which may be at most `most`; `part` names what it is the length of.
     ///
     /// # Errors
     /// [`Damage`] if a length that is read is larger.
     fn length(&mut self, length: usize, most: usize, part: &'static str) -> Result<usize, Damage> {
-        let length = self.plain(length as u32, 32) as usize;
+        let length = u32::try_from(length).map_err(|_| Damage(part))?;
+        let length = self.plain(length, 32) as usize;
         if Self::READS && length > most { Err(Damage(part)) } else { Ok(length) }
     }
 
@@ -102,6 +113,7 @@ pub(crate) trait Coder: Bits {
     }
 
     /// Codes a vector of a list that likely lies from `from` along `way`, or against it.
+    #[expect(clippy::indexing_slicing, reason = "an axis is 0, 1 or 2")]
     fn vector_along(&mut self, lists: &mut [Differences; 3], v: &mut Vec3, from: Vec3, way: Vec3) {
         let axis = way.abs().max_position();
         self.float(&mut lists[axis], &mut v[axis], from[axis]);
@@ -146,7 +158,9 @@ pub(crate) trait Coder: Bits {
         }
         let mut before = None;
         for (i, x) in floats.iter_mut().enumerate() {
-            let mut place = different.partition_point(|&value| value < rank(x.to_bits())) as u32;
+            let place = different.partition_point(|&value| value < rank(x.to_bits()));
+            // There are no more than the length says.
+            let mut place = u32::try_from(place).unwrap_or(u32::MAX);
             self.word(&mut places, &mut place, expected(i, before).unwrap_or_default());
             before = Some(place);
             *x = f32::from_bits(unrank(*different.get(place as usize).ok_or(Damage(part))?));
@@ -171,10 +185,16 @@ fn unrank(rank: u32) -> u32 {
 /// Makes small numbers of small differences, up or down.
 #[inline]
 fn folded(difference: u32) -> u32 {
-    difference << 1 ^ ((difference as i32) >> 31) as u32
+    difference << 1 ^ (difference.cast_signed() >> 31).cast_unsigned()
 }
 
 #[inline]
 fn unfolded(folded: u32) -> u32 {
     folded >> 1 ^ (folded & 1).wrapping_neg()
+}
+
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "each half is what is left of the other")]
+fn halves(long: u64) -> [u32; 2] {
+    [long as u32, (long >> 32) as u32]
 }

@@ -28,6 +28,7 @@ impl Default for Differences {
 impl Differences {
     /// Codes a difference of the list, the next one, and returns it.
     #[inline]
+    #[expect(clippy::indexing_slicing, reason = "a size before is 0, 1 or 2, and a number of bits has five bits")]
     pub fn code<C: Bits>(&mut self, coder: &mut C, difference: u32) -> u32 {
         let before = self.before;
         if !coder.bit(&mut self.any[before], difference != 0) {
@@ -47,11 +48,12 @@ impl Differences {
 
 /// Codes a number of `count` bits, the highest bit first, each by the odds that those before it leave.
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "five bits of the node are taken")]
 fn tree<C: Bits>(coder: &mut C, odds: &mut [Odds; 32], count: u32, number: u32) -> u32 {
     let mut node = 1;
     for i in (0..count).rev() {
-        let bit = coder.bit(&mut odds[node & 31], number >> i & 1 != 0);
-        node = node << 1 | usize::from(bit);
+        let bit = coder.bit(&mut odds[(node & 31) as usize], number >> i & 1 != 0);
+        node = node << 1 | u32::from(bit);
     }
-    node as u32 & ((1 << count) - 1)
+    node & ((1 << count) - 1)
 }

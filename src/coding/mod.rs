@@ -12,12 +12,24 @@
 //! | differences of any size | `difference` |
 //! | single bits, written or read | `bits` |
 //! | what a part of a film codes itself with | `coder` |
+//! | coded bytes as serde data | `serial` |
+
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
 
 mod bits;
 mod coder;
 mod difference;
 mod odds;
 mod range_coder;
+mod serial;
 #[cfg(test)]
 mod tests;
 
@@ -26,3 +38,4 @@ pub(crate) use coder::Coder;
 pub(crate) use difference::Differences;
 pub(crate) use odds::Odds;
 pub(crate) use range_coder::{Reader, Writer};
+pub(crate) use serial::deserialize_bytes;

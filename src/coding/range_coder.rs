@@ -42,6 +42,7 @@ impl Writer {
         }
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "bytes are taken from where they are in the word")]
     fn shift(&mut self) {
         let carry = (self.low >> 32) as u8;
         if carry != 0 || (self.low as u32) < 0xff00_0000 {
@@ -68,9 +69,10 @@ impl Writer {
             self.coded.pop();
         }
         if self.count > 0 {
-            self.plain.extend_from_slice(&self.bits.to_le_bytes()[..self.count.div_ceil(8) as usize]);
+            self.plain.extend(self.bits.to_le_bytes().iter().take(self.count.div_ceil(8) as usize));
         }
-        let mut bytes = (self.coded.len() as u32).to_le_bytes().to_vec();
+        // Of more than 4 GiB nothing is made of anyway: no header can say so.
+        let mut bytes = u32::try_from(self.coded.len()).unwrap_or(u32::MAX).to_le_bytes().to_vec();
         bytes.append(&mut self.coded);
         bytes.append(&mut self.plain);
         bytes
@@ -102,6 +104,7 @@ impl Bits for Writer {
     }
 
     #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the lowest byte is taken")]
     fn plain(&mut self, bits: u32, count: u32) -> u32 {
         self.bits |= u64::from(bits) << self.count;
         self.count += count;
@@ -171,12 +174,10 @@ impl Bits for Reader<'_> {
     fn bit(&mut self, odds: &mut Odds, _: bool) -> bool {
         let bound = (self.range >> PRECISION) * odds.of_zero();
         let bit = self.code >= bound;
-        if bit {
-            self.code -= bound;
-            self.range -= bound;
-        } else {
-            self.range = bound;
-        }
+        // Without a branch, which nobody could foretell.
+        let mask = u32::from(bit).wrapping_neg();
+        self.code -= bound & mask;
+        self.range = ((self.range - bound) & mask) | (bound & !mask);
         odds.learn(bit);
         while self.range < LEAST {
             self.range <<= 8;
@@ -186,6 +187,7 @@ impl Bits for Reader<'_> {
     }
 
     #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the lowest `count` bits are taken, at most 32")]
     fn plain(&mut self, _: u32, count: u32) -> u32 {
         while self.count < count {
             match self.plain.split_first() {

@@ -122,6 +122,9 @@ impl History {
 
     /// Lets `event` happen now, before the next step. What was logged after this step is forgotten, and with it the
     /// future that was. Returns whether the event changed anything; if not, it is not logged and nothing is forgotten.
+    ///
+    /// The log keeps one event of each kind for each thing and step: a later one takes the place of the earlier, unless
+    /// an edge was torn or a face cut out in between.
     pub fn record(&mut self, event: Event) -> bool {
         let changes = self.now.apply(&mut self.film, &event);
         if changes {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-/// Least number of steps between two keyframes: to restore one takes about as long as so many steps.
-const LEAST_PACE: u64 = 20;
+/// Least number of steps between two keyframes: to write or restore one takes about as long as so many steps.
+const LEAST_PACE: u64 = 10;
 
 /// State of a film after so many steps.
 #[derive(Clone, Debug)]
@@ -35,6 +35,11 @@ impl Keyframes {
     /// Returns the number of bytes of all keyframes.
     pub fn bytes(&self) -> usize {
         self.bytes
+    }
+
+    /// Returns the first keyframe, where the history begins.
+    pub fn first(&self) -> Option<&Keyframe> {
+        self.list.first()
     }
 
     /// Returns the step of the last keyframe.
@@ -95,7 +100,7 @@ impl Keyframes {
     /// that gaps are about even.
     fn thin(&mut self) {
         while self.bytes > self.budget && self.list.len() > 1 {
-            let gaps = self.list.windows(3).map(|three| three[2].step - three[0].step);
+            let gaps = self.list.windows(3).filter_map(|three| Some(three.last()?.step - three.first()?.step));
             // With two left there is no gap between others.
             let least = gaps.enumerate().min_by_key(|&(i, gap)| (gap, i)).map_or(1, |(i, _)| i + 1);
             self.bytes -= self.list.remove(least).state.len();

@@ -6,11 +6,13 @@ use super::{
     conditions::Conditions,
     event::{Event, LogEntry},
     keyframes::{Keyframe, Keyframes},
+    recent::Recent,
 };
 use crate::{
     coding::Damage,
+    film::FilmMesh,
     sim::{FilmState, FreshFilm},
-    snapshot::SnapshotError,
+    snapshot::{MeshName, SnapshotError},
 };
 
 /// Past of a film: where it began, what acted on it since, and keyframes on the way.
@@ -24,6 +26,8 @@ pub(crate) struct Past {
     log: Arc<Vec<LogEntry>>,
     /// Memory of the log, in bytes.
     log_bytes: usize,
+    /// Entries at the end of the log that others may still take the place of.
+    recent: Recent,
     keyframes: Keyframes,
 }
 
@@ -41,8 +45,56 @@ impl Past {
             first: Arc::new(conditions.clone()),
             log: Arc::default(),
             log_bytes: 0,
+            recent: Recent::default(),
             keyframes: Keyframes::new(first, bytes),
         })
+    }
+
+    /// Makes a past on `mesh` that was recorded, without its log, and the film at its beginning. `first` is the state
+    /// there, from outside, and `conditions` are those there.
+    ///
+    /// # Errors
+    /// [`Damage`] if the state is none of a film of this mesh.
+    pub fn again(
+        mesh: &FilmMesh,
+        first: &[u8],
+        conditions: &Conditions,
+        bytes: usize,
+    ) -> Result<(Self, FilmState), Damage> {
+        let mut fresh = FreshFilm::new(mesh.at_rest().map_err(|_| Damage("its mesh"))?);
+        let film = fresh.read(first, true)?;
+        let first = Keyframe { step: film.clock.steps, state: first.into() };
+        let past = Self {
+            fresh: Arc::new(fresh),
+            first: Arc::new(conditions.clone()),
+            log: Arc::default(),
+            log_bytes: 0,
+            recent: Recent::default(),
+            keyframes: Keyframes::new(first, bytes),
+        };
+        Ok((past, film))
+    }
+
+    /// Puts `log` in the place of the log. Its steps must not fall, and not lie before the first keyframe.
+    pub fn set_log(&mut self, log: Vec<LogEntry>) {
+        self.log_bytes = log.iter().map(LogEntry::bytes).sum();
+        self.log = Arc::new(log);
+        self.recent = Recent::default();
+    }
+
+    /// Returns the memory of the log, in bytes.
+    pub fn log_bytes(&self) -> usize {
+        self.log_bytes
+    }
+
+    /// Returns the conditions at the first keyframe.
+    pub fn first_conditions(&self) -> &Conditions {
+        &self.first
+    }
+
+    /// Returns the name of the film's mesh.
+    pub fn mesh_name(&self) -> MeshName {
+        MeshName::of(&self.fresh.mesh)
     }
 
     /// Returns all events, in the order in which they happened.
@@ -66,13 +118,19 @@ impl Past {
         self.keyframes.set_budget(bytes);
     }
 
-    /// Logs an event that happens at `step`. What was logged after that is forgotten. Where the log takes more memory
+    /// Logs an event that happens at `step`. What was logged after that is forgotten, and so is what this event
+    /// overwrites: one of its kind that touched the same before any step was taken. Where the log takes more memory
     /// than keyframes may, the past begins later: at a keyframe that covers what came before.
     pub fn record(&mut self, step: u64, event: Event) {
         self.forget_after(step);
+        let log = Arc::make_mut(&mut self.log);
+        let place = self.recent.place_of(step, &event, log.len(), &self.fresh.mesh.topology);
         let entry = LogEntry { step, event };
         self.log_bytes += entry.bytes();
-        Arc::make_mut(&mut self.log).push(entry);
+        match log.get_mut(place) {
+            Some(old) => self.log_bytes -= std::mem::replace(old, entry).bytes(),
+            None => log.push(entry),
+        }
         while self.log_bytes > self.keyframes.budget() && self.begin_later() {}
     }
 
@@ -83,6 +141,7 @@ impl Past {
         let forgotten = self.log.partition_point(|entry| entry.step < step);
         let forgotten = Arc::make_mut(&mut self.log).drain(..forgotten);
         self.log_bytes -= forgotten.map(|entry| entry.bytes()).sum::<usize>();
+        self.recent = Recent::default();
         true
     }
 

@@ -119,7 +119,7 @@ fn a_long_log_moves_the_beginning() {
     history.set_keyframe_bytes(30_000);
     let mut digests = vec![history.film().digest()];
     for step in 0..400_u32 {
-        let tilt = bevy_math::ops::sin(step as f32 * 0.1);
+        let tilt = bevy_math::ops::sin(step as f32 * 0.1 + 0.1);
         let turned = Environment::still(Vec3::new(tilt, -1.0, 0.0).normalize());
         assert!(history.record(Event::Environment(turned)));
         history.step().expect("a step");

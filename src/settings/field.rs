@@ -69,6 +69,11 @@ impl Field {
     }
 
     /// Returns the text of the setting's value: a number, or the name that it has.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "numbers beyond all names, and NaN, have none or the nearest"
+    )]
     pub fn text(&self, settings: &CoatingSettings) -> String {
         let value = self.get(settings);
         self.names.get(value as usize).map_or_else(|| value.to_string(), |name| (*name).to_owned())

@@ -16,6 +16,16 @@
 //! # Ok::<(), bevy_coating::settings::SettingsError>(())
 //! ```
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 #[cfg(feature = "plugin")]
 pub(crate) mod asset;
 mod error;

@@ -76,6 +76,11 @@ impl Number for u32 {
     fn to_f32(self) -> f32 {
         self as f32
     }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the range was checked: it is whole, not negative, and not too large"
+    )]
     fn from_f32(value: f32) -> Self {
         value as u32
     }

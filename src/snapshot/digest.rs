@@ -16,6 +16,7 @@ pub struct MeshName {
 
 impl MeshName {
     /// Returns the name of `mesh`.
+    #[expect(clippy::cast_possible_truncation, reason = "handles of vertices and faces have 32 bits")]
     pub fn of(mesh: &FilmMesh) -> Self {
         let mut bytes = Vec::with_capacity(12 * (mesh.topology.original_vertex_count() + mesh.topology.face_count()));
         write_rest(mesh, |part| bytes.extend_from_slice(part));

@@ -5,7 +5,11 @@ use std::{fmt, path::Path};
 #[cfg(feature = "plugin")]
 use bevy::reflect::prelude::*;
 
-use super::{digest::MeshName, error::SnapshotError, header};
+use super::{
+    digest::MeshName,
+    error::SnapshotError,
+    header::{self, HeaderError, Kind},
+};
 use crate::{
     coding::Damage,
     files::{
@@ -15,6 +19,10 @@ use crate::{
     film::FilmMesh,
     sim::{FilmState, FreshFilm},
 };
+
+/// Format of snapshots. Another version for every change of what is saved, in which order, or of what is expected of
+/// it.
+pub(super) const SNAPSHOT: Kind = Kind { magic: *b"bvcoat", version: 1 };
 
 /// State of a film at one moment, as bytes: all that decides what becomes of it, to the bit.
 ///
@@ -64,7 +72,7 @@ impl Snapshot {
         let fail = |part| SnapshotError::Unsaveable { part };
         let rest = film.mesh.at_rest().map_err(|_| fail("its mesh"))?;
         let state = FreshFilm::new(rest).write(&mut film.clone()).map_err(|Damage(part)| fail(part))?;
-        Ok(Self(header::wrap(&MeshName::of(&film.mesh), &state)))
+        header::wrap(SNAPSHOT, &MeshName::of(&film.mesh), &state).map(Self).map_err(|Damage(part)| fail(part))
     }
 
     /// Takes the bytes of a snapshot, as [`as_bytes`](Self::as_bytes) and [`into_bytes`](Self::into_bytes) give them.
@@ -80,7 +88,7 @@ impl Snapshot {
     /// ```
     pub fn from_bytes(bytes: impl Into<Vec<u8>>) -> Result<Self, SnapshotError> {
         let bytes = bytes.into();
-        header::unwrap(&bytes)?;
+        unwrap(&bytes)?;
         Ok(Self(bytes))
     }
 
@@ -96,7 +104,7 @@ impl Snapshot {
 
     /// Returns whether this is a snapshot of a film on `mesh`, whatever has become of either.
     pub fn is_of(&self, mesh: &FilmMesh) -> bool {
-        header::unwrap(&self.0).is_ok_and(|(name, _)| name == MeshName::of(mesh))
+        unwrap(&self.0).is_ok_and(|(name, _)| name == MeshName::of(mesh))
     }
 
     /// Makes the film that was saved. `mesh` is the film's mesh, fresh or not: one built from the same prop at the same
@@ -106,7 +114,7 @@ impl Snapshot {
     /// [`SnapshotError::OtherFilm`] if it is the mesh of another film, [`SnapshotError::Inconsistent`] if another
     /// program has made the snapshot.
     pub fn restore(&self, mesh: &FilmMesh) -> Result<FilmState, SnapshotError> {
-        let (saved, state) = header::unwrap(&self.0)?;
+        let (saved, state) = unwrap(&self.0)?;
         let found = MeshName::of(mesh);
         if saved != found {
             return Err(SnapshotError::OtherFilm { saved: saved.counts, found: found.counts });
@@ -136,6 +144,15 @@ impl Snapshot {
         let bytes = files::read(path).map_err(|source| SnapshotError::Read { path: path.into(), source })?;
         Self::from_bytes(bytes)
     }
+}
+
+fn unwrap(bytes: &[u8]) -> Result<(MeshName, &[u8]), SnapshotError> {
+    header::unwrap(SNAPSHOT, bytes).map_err(|error| match error {
+        HeaderError::OtherKind => SnapshotError::NotASnapshot,
+        HeaderError::Version(found) => SnapshotError::Version { found, known: SNAPSHOT.version },
+        HeaderError::Length { found, expected } => SnapshotError::Length { found, expected },
+        HeaderError::Checksum => SnapshotError::Checksum,
+    })
 }
 
 impl fmt::Debug for Snapshot {

@@ -13,6 +13,8 @@
 //!
 //! The program needs the feature `bake` and no engine: `cargo install --path . --no-default-features --features bake`.
 
+#![deny(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::unreachable)]
+
 mod args;
 mod jobs;
 mod report;

@@ -6,7 +6,7 @@ use super::plate;
 use crate::{
     settings::CoatingSettings,
     sim::FilmState,
-    snapshot::{Snapshot, SnapshotError, header},
+    snapshot::{Snapshot, SnapshotError, film_snapshot::SNAPSHOT, header},
     stain::Environment,
 };
 
@@ -66,7 +66,7 @@ fn every_flipped_byte_is_refused() {
 fn foreign_states_are_refused_or_are_films() {
     let film = aged();
     let bytes = Snapshot::of(&film).expect("a snapshot").into_bytes();
-    let (name, state) = header::unwrap(&bytes).expect("a snapshot");
+    let (name, state) = header::unwrap(SNAPSHOT, &bytes).expect("a snapshot");
     let (settings, mut random) = (CoatingSettings::default(), Random(2));
     let (mut refused, mut films) = (0, 0);
     for _ in 0..400 {
@@ -75,7 +75,7 @@ fn foreign_states_are_refused_or_are_films() {
             let place = random.below(changed.len());
             changed[place] = random.below(256) as u8;
         }
-        match Snapshot(header::wrap(&name, &changed)).restore(&film.mesh) {
+        match Snapshot(header::wrap(SNAPSHOT, &name, &changed).expect("a state")).restore(&film.mesh) {
             Err(SnapshotError::Inconsistent { .. }) => refused += 1,
             Err(other) => panic!("{other}"),
             Ok(mut restored) => {
@@ -98,8 +98,8 @@ proptest! {
         // As the state of a film, with header and checksum in order.
         let film = plate(20, &CoatingSettings::default(), 3, 100);
         let saved = Snapshot::of(&film).expect("a snapshot").into_bytes();
-        let (name, _) = header::unwrap(&saved).expect("a snapshot");
-        let refused = Snapshot(header::wrap(&name, &bytes)).restore(&film.mesh);
+        let (name, _) = header::unwrap(SNAPSHOT, &saved).expect("a snapshot");
+        let refused = Snapshot(header::wrap(SNAPSHOT, &name, &bytes).expect("a state")).restore(&film.mesh);
         let is_named = matches!(refused, Err(SnapshotError::Inconsistent { .. }));
         prop_assert!(is_named);
     }

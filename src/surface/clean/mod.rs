@@ -13,7 +13,8 @@
 //!   apart than a tenth of the shortest edge at either, so that thin sheets and small details survive.
 //! - **Triangles without area** are dissolved into their neighbours. Exporters fill T-junctions with them, so dropping
 //!   one would open the surface along its long edge.
-//! - **Duplicates** with the same winding are dropped, and the first is kept. Two triangles on the same vertices with
+//! - **Duplicates** with the same winding are dropped, and the first is kept (but not of two fillers without area that
+//!   welding laid on each other: they close nothing). Two triangles on the same vertices with
 //!   *opposite* winding are the two sides of a sheet that was modelled twice. Both are kept and never joined to each
 //!   other, so each side has its own texture and its own paint.
 //! - **Edges with more than two faces** join the pairs of faces that continue most smoothly. The other faces get a
@@ -95,7 +96,8 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
         });
     }
     let points_and_lines = surface.triangles.len() - faces.len();
-    let duplicates = duplicates::drop_duplicates(&mut faces);
+    let is_filler = |face: &Face| sliver::is_filler(face, &positions, welded.tolerance);
+    let duplicates = duplicates::drop_duplicates(&mut faces, is_filler);
     let degenerate = points_and_lines + sliver::dissolve(&mut faces, &positions, welded.tolerance);
     if faces.is_empty() {
         return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });

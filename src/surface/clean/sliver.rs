@@ -6,7 +6,7 @@
 //!   long edge is split at that vertex. In a manifold this is an edge flip.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 use bevy_math::{DVec3, Vec3};
 
@@ -16,6 +16,11 @@ use super::face::{Face, has_repeats};
 /// tolerance. Its angles are then below a ten-thousandth of a degree. Slivers of CAD programs are much fatter and are
 /// left to the remesher.
 const ALTITUDE: f64 = 1e-6;
+/// Altitude of the thickest filler, in altitudes of the thickest triangle without area.
+const FILLER: f64 = 4.0;
+/// Number of times that caps may bring an edge back that another gave up. With rounding, a cluster of slivers may go
+/// round in circles; one that is stopped at its first turn often has another way to go, one at its fourth never had.
+const RETURNS: u32 = 4;
 
 /// Dissolves slivers in place. Returns the number of slivers at the start. There must be no duplicate faces.
 pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64) -> usize {
@@ -26,8 +31,8 @@ pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64
         return 0;
     }
     let mut work = Dissolver::new(faces, positions, tolerance, queue);
-    // Each step shortens an edge or removes a face. Rounding might still make clusters of slivers go round in
-    // circles, so the number of steps is bounded. Slivers that are left then stay: thin, but watertight.
+    // No edge comes back for ever, so this ends; the number of steps is bounded for the sake of time. Slivers that are
+    // left then stay: thin, but watertight.
     let mut steps = 16 * count + 64;
     while steps > 0
         && let Some((_, Reverse(f))) = work.queue.pop()
@@ -61,6 +66,19 @@ impl Sliver {
 
 /// Returns the shape of the face if it has no area.
 fn sliver(face: &Face, positions: &[Vec3], tolerance: f64) -> Option<Sliver> {
+    let (shape, thickness) = shape(face, positions, tolerance);
+    // No number is as thin as can be.
+    if thickness > 1.0 { None } else { Some(shape) }
+}
+
+/// Returns whether the face has so little area that it can only be there to fill a gap. Rounding of its corners may
+/// have made a little more of it than of a triangle without area.
+pub(super) fn is_filler(face: &Face, positions: &[Vec3], tolerance: f64) -> bool {
+    shape(face, positions, tolerance).1 <= FILLER
+}
+
+/// Returns the shape that the face has if it has no area, and its altitude over the largest of such a one.
+fn shape(face: &Face, positions: &[Vec3], tolerance: f64) -> (Sliver, f64) {
     let p = face.points(positions);
     let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
     let long = (0..3).fold(0, |best, k| if lengths[k] > lengths[best] { k } else { best });
@@ -70,17 +88,15 @@ fn sliver(face: &Face, positions: &[Vec3], tolerance: f64) -> Option<Sliver> {
     // Coordinates are rounded to f32, which alone may lift the middle vertex off the edge.
     let rounding = 2.0 * f64::from(f32::EPSILON) * p.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs())).max_element();
     let limit = (ALTITUDE * length).min(tolerance).max(rounding);
-    if altitude > limit {
-        return None;
-    }
     let short = [lengths[(long + 2) % 3], lengths[(long + 1) % 3]];
     let end = usize::from(short[1] < short[0]);
-    Some(Sliver {
+    let shape = Sliver {
         long,
         along: ((c - a).dot(b - a) / (length * length)).clamp(0.0, 1.0),
         length,
         needle: (short[end] <= 2.0 * limit).then_some(end),
-    })
+    };
+    (shape, altitude / limit)
 }
 
 /// Faces by rank, then lowest index.
@@ -91,8 +107,11 @@ struct Dissolver<'a> {
     positions: &'a [Vec3],
     tolerance: f64,
     dead: Vec<bool>,
-    /// Sorted vertices of each face before any change; of a part of a face, those of the whole face.
-    origin: Vec<[u32; 3]>,
+    /// Sorted vertices of each face before any change; of a part of a face, those of the whole face. `None` of fillers:
+    /// two of them on the same vertices are no sheet with two sides but one place that was filled twice.
+    origin: Vec<Option<[u32; 3]>>,
+    /// Edges that caps gave up, and how often.
+    given_up: BTreeMap<[u32; 2], u32>,
     /// Faces at each vertex, in no particular order. Some may be dead or no longer at the vertex.
     at_vertex: Vec<Vec<u32>>,
     queue: Queue,
@@ -107,8 +126,9 @@ impl<'a> Dissolver<'a> {
             }
         }
         let dead = vec![false; faces.len()];
-        let origin = faces.iter().map(|face| sorted(face.vertices)).collect();
-        Self { faces, positions, tolerance, dead, origin, at_vertex, queue }
+        let has_area = |face: &&Face| !is_filler(face, positions, tolerance);
+        let origin = faces.iter().map(|face| Some(face).filter(has_area).map(|face| sorted(face.vertices))).collect();
+        Self { faces, positions, tolerance, dead, origin, given_up: BTreeMap::new(), at_vertex, queue }
     }
 
     fn step(&mut self, f: usize) {
@@ -125,9 +145,15 @@ impl<'a> Dissolver<'a> {
                 self.collapse(c.max(other), c.min(other));
             }
             None => {
+                let beyond = self.live_faces_with(a, b);
+                let mut opposite = beyond.iter().flat_map(|&g| self.faces[g].vertices).filter(|v| ![a, b].contains(v));
+                if opposite.any(|d| self.given_up.get(&ends(c, d)).is_some_and(|times| *times >= RETURNS)) {
+                    return;
+                }
+                *self.given_up.entry(ends(a, b)).or_default() += 1;
                 self.dead[f] = true;
                 let apex = (c, self.faces[f].corners[corner(2)]);
-                for g in self.live_faces_with(a, b) {
+                for g in beyond.into_iter().filter(|&g| g != f) {
                     self.split(g, a, b, apex, sliver.along);
                 }
             }
@@ -202,15 +228,26 @@ impl<'a> Dissolver<'a> {
         }
     }
 
-    /// Returns another face on the same vertices, unless the two were the sides of one sheet from the start.
+    /// Returns another face on the same vertices, unless the two were the sides of one sheet from the start: two
+    /// triangles with area on the same vertices.
     fn folded_onto(&self, g: usize) -> Option<usize> {
         let vertices = sorted(self.faces[g].vertices);
         let others = self.at_vertex[vertices[0] as usize].iter().map(|&h| h as usize);
         others
-            .filter(|&h| h != g && !self.dead[h] && self.origin[h] != self.origin[g])
-            .filter(|&h| sorted(self.faces[h].vertices) == vertices)
+            .filter(|&h| h != g && !self.dead[h] && sorted(self.faces[h].vertices) == vertices)
+            .filter(|&h| !self.is_sheet(g, h))
             .min()
     }
+
+    fn is_sheet(&self, g: usize, h: usize) -> bool {
+        // Two parts of one triangle that have come to lie on each other are none.
+        self.faces[g].source != self.faces[h].source && self.origin[g].is_some() && self.origin[g] == self.origin[h]
+    }
+}
+
+/// Returns an edge, whichever way it runs.
+fn ends(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 fn sorted(mut vertices: [u32; 3]) -> [u32; 3] {
