@@ -46,6 +46,7 @@ pub mod shading;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod wedges;
 
 pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;

@@ -1,6 +1,5 @@
 //! Builds the fronts of the film: its live faces, with the prop's own attributes at their corners.
 
-use super::wedges::Wedges;
 use crate::appearance::{
     blocks::Blocks,
     corners::CornerAttributes,
@@ -8,6 +7,7 @@ use crate::appearance::{
     part::{MeshPart, set},
     part_changes::PartChanges,
     seen::Seen,
+    wedges::Wedges,
 };
 use crate::film::{FilmMesh, HalfEdgeId};
 
@@ -48,7 +48,8 @@ impl Fronts {
         self.renew_vertices(mesh, attributes, wedges, seen);
         self.renew_triangles(mesh, face_slots, wedges, seen);
         self.move_vertices(mesh, attributes, wedges, seen);
-        if seen.looks.film.any {
+        // All vertices of new fronts are new.
+        if seen.looks.film.any && !seen.differences.whole {
             self.stain(wedges, seen);
         }
     }

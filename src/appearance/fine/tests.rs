@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use bevy_math::Vec3;
 
-use super::chips::Chip;
+use super::{FineSurface, chips::Chip};
 use crate::{
-    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, tests::shown},
-    film::{FaceGrid, FilmMesh, HalfEdgeId},
+    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, Shown, tests::shown},
+    film::{FaceGrid, FaceId, FilmMesh, HalfEdgeId, Topology},
     remesh::{
         BuiltFilm,
         sample::{self, TestPiece},
@@ -42,12 +42,30 @@ impl Aged {
         self.fine.front(0).unwrap()
     }
 
+    fn surface(&self) -> &FineSurface {
+        let Shown::Fine(surface) = &self.fine.shown else { panic!("it is fine") };
+        surface
+    }
+
+    /// Vertices of the front at the points of the grid of `f`.
+    fn vertices(&self, f: FaceId) -> Vec<usize> {
+        vertices(&self.fine, &self.film.mesh.topology, f)
+    }
+
     /// Positions of the front along the half-edge `h`.
     fn edge(&self, h: HalfEdgeId) -> Vec<Vec3> {
-        let first = h.face().index() * self.grid.points().len();
-        let edge = self.grid.edge(h.index() % 3);
-        edge.iter().map(|&i| Vec3::from_array(self.front().positions[first + i as usize])).collect()
+        let vertices = self.vertices(h.face());
+        let edge = self.grid.edge(h.index() % 3).iter();
+        edge.map(|&i| Vec3::from_array(self.front().positions[vertices[i as usize]])).collect()
     }
+}
+
+/// Vertices of the front of a film with one slot at the points of the grid of `f`.
+fn vertices(fine: &FilmAppearance, topology: &Topology, f: FaceId) -> Vec<usize> {
+    let Shown::Fine(surface) = &fine.shown else { panic!("it is fine") };
+    let mut vertices = Vec::new();
+    surface.fronts.skin.list(topology, &surface.base, 0, f, &mut vertices);
+    vertices.into_iter().map(|vertex| vertex as usize).collect()
 }
 
 /// Largest distance between the points of two edges that run against each other.
@@ -121,16 +139,17 @@ fn rims_join_fronts_and_backs() {
         .all_faces()
         .map(|f| topology.is_live(f) && topology.corners(f).iter().all(|&v| !aged.film.forces.is_attached(v)))
         .collect();
-    let points = aged.grid.points().len() as u32;
-    let is_separated = |vertex: u32| separated[(vertex / points) as usize];
     let mut count = |part: &MeshPart, t: &[u32]| {
         for k in 0..3 {
             let [a, b] = [t[k], t[(k + 1) % 3]].map(|v| place(part.positions[v as usize]));
             *edges.entry((a.min(b), a.max(b))).or_insert(0) += 1;
         }
     };
-    for t in aged.front().triangles().filter(|t| is_separated(t[0])) {
-        count(aged.front(), &t);
+    for f in topology.live_faces().filter(|f| separated[f.index()]) {
+        let vertices = aged.vertices(f);
+        for t in aged.grid.triangles() {
+            count(aged.front(), &t.map(|i| vertices[i as usize] as u32));
+        }
     }
     for t in backs.triangles() {
         count(backs, &t);
@@ -138,19 +157,18 @@ fn rims_join_fronts_and_backs() {
     let open = edges.values().filter(|&&n| n == 1).count();
     // Backs of faces that are partly attached have no front here.
     assert!(open * 5 < edges.len(), "{open} of {} edges are open", edges.len());
-    let rims = backs.positions.len() / points as usize;
-    assert!(rims > 100);
+    let rims = topology.all_half_edges().filter(|&h| aged.surface().backs.rims.vertices_of(h).is_some()).count();
+    assert!(rims > 100, "{rims}");
 }
 
 #[test]
 fn nothing_dips_below_the_props_surface() {
     let aged = Aged::new(700, 6, 2, 1.0);
     let (mesh, front) = (&aged.film.mesh, aged.front());
-    let points = aged.grid.points().len();
     for f in mesh.topology.live_faces() {
+        let vertices = aged.vertices(f);
         let normals = mesh.topology.corners(f).map(|v| mesh.geometry.rest_normals[v.index()]);
-        for (i, b) in aged.grid.points().iter().enumerate() {
-            let at = f.index() * points + i;
+        for (&at, b) in vertices.iter().zip(aged.grid.points()) {
             let up = normals[0] * b.x + normals[1] * b.y + normals[2] * b.z;
             let height = (Vec3::from_array(front.positions[at]) - Vec3::from_array(front.rest[at])).dot(up);
             assert!(height > -0.01 * mesh.geometry.mean_edge, "{height}");
@@ -201,9 +219,9 @@ fn other_levels_show_the_same_film() {
             let grid = FaceGrid::new(level);
             let own = aged.grid.points_of(&grid);
             for f in mesh.topology.live_faces() {
-                for (i, &of_finest) in own.iter().enumerate() {
-                    let place = front.positions[f.index() * own.len() + i];
-                    let fine = finest.positions[f.index() * aged.grid.points().len() + of_finest as usize];
+                let (vertices, of_finest) = (vertices(&other, &mesh.topology, f), aged.vertices(f));
+                for (vertex, &i) in vertices.into_iter().zip(&own) {
+                    let (place, fine) = (front.positions[vertex], finest.positions[of_finest[i as usize]]);
                     let gap = Vec3::from_array(place).distance(Vec3::from_array(fine));
                     assert!(gap < 0.02 * mesh.geometry.mean_edge, "{gap} at level {level}");
                 }
