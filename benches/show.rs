@@ -52,8 +52,13 @@ fn fresh(piece: &TestPiece) -> FilmState {
 }
 
 fn shown(piece: &TestPiece, film: &FilmState, level: u32) -> FilmAppearance {
+    shown_within(piece, film, level, 0.0)
+}
+
+/// Shows a film within this tolerance.
+fn shown_within(piece: &TestPiece, film: &FilmState, level: u32, tolerance: f32) -> FilmAppearance {
     let FilmState { mesh, forces, stains, .. } = film;
-    let detail = Detail { level, ..Detail::default() };
+    let detail = Detail { level, tolerance, ..Detail::default() };
     FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).expect("a clean plate")
 }
 
@@ -111,11 +116,11 @@ fn partly_moving_fine(bencher: Bencher) {
 }
 
 /// Follows a film that ages, step by step.
-fn age(bencher: Bencher, level: u32) {
+fn age(bencher: Bencher, level: u32, tolerance: f32) {
     let (piece, settings, environment) = (common::plate(SIZE), CoatingSettings::default(), Environment::default());
     let mut film = fresh(&piece);
     film.age_to(AGE, &settings, &environment);
-    let begun = shown(&piece, &film, level);
+    let begun = shown_within(&piece, &film, level, tolerance);
     let steps: Vec<(FilmState, DisplayChanges)> = (0..STEPS)
         .map(|_| {
             let mut changes = DisplayChanges::default();
@@ -137,12 +142,12 @@ fn age(bencher: Bencher, level: u32) {
 
 #[divan::bench]
 fn ageing(bencher: Bencher) {
-    age(bencher, 0);
+    age(bencher, 0, 0.0);
 }
 
 #[divan::bench]
 fn ageing_fine(bencher: Bencher) {
-    age(bencher, 2);
+    age(bencher, 2, 0.0);
 }
 
 #[divan::bench(args = SIZES)]
@@ -155,6 +160,17 @@ fn stained(bencher: Bencher, triangles: u32) {
     let mut stained = DisplayChanges::default();
     stained.stains = true;
     update(bencher, triangles, 0, 1.0, stained, |_, _| {});
+}
+
+/// The same with moves of up to 1 % of an edge overlooked.
+#[divan::bench]
+fn ageing_tolerant(bencher: Bencher) {
+    age(bencher, 0, 0.01);
+}
+
+#[divan::bench]
+fn ageing_tolerant_fine(bencher: Bencher) {
+    age(bencher, 2, 0.01);
 }
 
 /// Makes all parts of a film of which this share has separated.

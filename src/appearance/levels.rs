@@ -93,6 +93,11 @@ impl FilmLevels {
         }
     }
 
+    /// Returns the distance up to which a vertex may lie beside where it is shown, in metres.
+    pub(super) fn tolerance(&self, mesh: &FilmMesh) -> f32 {
+        self.detail.tolerance * mesh.geometry.mean_edge
+    }
+
     /// Returns the finest level.
     pub fn finest(&self) -> u32 {
         self.finest.as_ref().map_or(0, |base| base.layout.grid.level())

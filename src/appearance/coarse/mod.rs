@@ -10,6 +10,7 @@ use super::{
     FILM_THICKNESS, METAL_DEPTH,
     corners::CornerAttributes,
     face_slots::FaceSlots,
+    part_changes::PartChanges,
     seen::Seen,
     wedges::{RestWedges, Wedges},
 };
@@ -48,5 +49,7 @@ impl CoarseSurface {
         fronts.update(mesh, face_slots, attributes, wedges, seen);
         backs.update(mesh, forces, face_slots, wedges, seen, fronts, edge * FILM_THICKNESS);
         metal.update(mesh, forces, face_slots, wedges.at_rest(), attributes, seen, edge * METAL_DEPTH);
+        let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
+        changes.for_each(PartChanges::finish);
     }
 }

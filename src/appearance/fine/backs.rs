@@ -6,11 +6,12 @@ use super::{
     base::Base,
     fronts::FineFronts,
     rims::Rims,
+    runs::Runs,
     skin::{list, owner},
     view::{Course, View, mix, unit},
 };
 use crate::{
-    appearance::{blocks::Blocks, face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
+    appearance::{face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
     film::{FaceId, HalfEdgeId, Topology},
     fracture::FilmForces,
 };
@@ -30,10 +31,8 @@ pub(in crate::appearance) struct FineBacks {
     corners: Vec<Vec<u32>>,
     /// Vertices of each slot that stand behind no wedge any more.
     free: Vec<Vec<u32>>,
-    /// Vertices behind those of the edge of each half-edge.
-    edges: Blocks,
-    /// Vertices behind those inside each face, and triangles of its back.
-    faces: Blocks,
+    /// Vertices behind those of the edge of each half-edge and inside each face, and triangles of its back.
+    runs: Runs,
     pub(super) rims: Rims,
     /// Faces whose backs or rims may be new or gone.
     touched: Vec<FaceId>,
@@ -56,8 +55,7 @@ impl FineBacks {
             thickness,
             corners: vec![Vec::new(); slots],
             free: vec![Vec::new(); slots],
-            edges: Blocks::new(layout.edge_points(), 0),
-            faces: Blocks::new(layout.inner_points(), layout.grid.triangles().len()),
+            runs: Runs::new(layout),
             rims: Rims::new(&layout.grid),
             ..Self::default()
         }
@@ -88,12 +86,13 @@ impl FineBacks {
             }
         }
         let touched = std::mem::take(&mut self.touched);
-        touched.iter().for_each(|&f| self.show(view, forces, f));
-        for h in touched.iter().flat_map(|f| f.half_edges()) {
-            self.renew_edge(view, fronts, h);
-            if let Some(twin) = topology.rest_twin(h) {
-                self.renew_edge(view, fronts, twin);
-            }
+        // Vertices that are moved together are together, so far as faces of their own need them.
+        for &f in &touched {
+            self.show(view, forces, f);
+            f.half_edges().into_iter().for_each(|h| self.renew_edge(view, forces, fronts, h));
+        }
+        for twin in touched.iter().flat_map(|f| f.half_edges()).filter_map(|h| topology.rest_twin(h)) {
+            self.renew_edge(view, forces, fronts, twin);
         }
         for i in 0..self.new_faces.len() {
             self.lead(view, fronts, self.new_faces[i]);
@@ -102,7 +101,7 @@ impl FineBacks {
             self.lead(view, fronts, f);
         }
         for h in touched.iter().flat_map(|f| f.half_edges()) {
-            let has_back = self.faces.get(h.face().index()).is_some();
+            let has_back = self.runs.has(h.face());
             let slot = view.face_slots.slot(h.face());
             let (part, changes) = (&mut self.parts[slot], &mut self.changes[slot]);
             if self.rims.show(view, forces, has_back, h, part, changes) {
@@ -118,8 +117,7 @@ impl FineBacks {
         self.parts.iter_mut().for_each(MeshPart::clear);
         self.corners.iter_mut().for_each(Vec::clear);
         self.free.iter_mut().for_each(Vec::clear);
-        self.edges.clear(topology.half_edge_count(), slots);
-        self.faces.clear(topology.face_count(), slots);
+        self.runs.clear(topology.face_count(), slots);
         self.rims.clear(topology, slots);
         self.touched.extend(topology.live_faces());
         let mut counts = vec![0; slots];
@@ -136,14 +134,14 @@ impl FineBacks {
     /// Adds a back to `f` if it should have one, and removes one that it should not have.
     fn show(&mut self, view: &View, forces: &FilmForces, f: FaceId) {
         let slot = view.face_slots.slot(f);
-        match (is_wanted(view, forces, f), self.faces.get(f.index()).is_some()) {
+        match (is_wanted(view, forces, f), self.runs.has(f)) {
             (true, false) => {
-                self.faces.take(f.index(), slot, &mut self.parts[slot]);
+                self.runs.take_face(f, slot, &mut self.parts[slot]);
                 self.new_faces.push(f);
             }
             (false, true) => {
-                if let Some(block) = self.faces.release(f.index(), slot, &mut self.parts[slot]) {
-                    self.changes[slot].indices.add(self.faces.indices_of(block));
+                if let Some(indices) = self.runs.release_face(f, slot, &mut self.parts[slot]) {
+                    self.changes[slot].indices.add(indices);
                 }
             }
             _ => {}
@@ -152,27 +150,25 @@ impl FineBacks {
 
     /// Adds vertices behind the edge of `h` if it has its own and a face at it has a back, and removes those that should
     /// not be there.
-    fn renew_edge(&mut self, view: &View, fronts: &FineFronts, h: HalfEdgeId) {
+    fn renew_edge(&mut self, view: &View, forces: &FilmForces, fronts: &FineFronts, h: HalfEdgeId) {
         let (topology, slot) = (view.topology(), view.face_slots.slot(h.face()));
-        let has_back = |f: FaceId| self.faces.get(f.index()).is_some();
+        let has_back = |f: FaceId| is_wanted(view, forces, f);
         let shares = |t: HalfEdgeId| owner(topology, view.base, t) == h && has_back(t.face());
         let wanted =
             fronts.skin.edge(h).is_some() && (has_back(h.face()) || topology.bound_twin(h).is_some_and(shares));
-        match (wanted, self.edges.get(h.index()).is_some()) {
+        match (wanted, self.runs.edge(h).is_some()) {
             (true, false) => {
-                self.edges.take(h.index(), slot, &mut self.parts[slot]);
+                self.runs.take_edge(h, slot, &mut self.parts[slot]);
                 self.new_edges.push(h);
             }
-            (false, true) => {
-                self.edges.release(h.index(), slot, &mut self.parts[slot]);
-            }
+            (false, true) => self.runs.release_edge(h, slot),
             _ => {}
         }
     }
 
     /// Writes the triangles of the back of `f`, if it has one, behind those of its front.
     fn lead(&mut self, view: &View, fronts: &FineFronts, f: FaceId) {
-        let Some(block) = self.faces.get(f.index()) else { return };
+        let (Some(indices), Some(inside)) = (self.runs.triangles(f), self.runs.inside(f)) else { return };
         let slot = view.face_slots.slot(f);
         let (part, corners) = (&mut self.parts[slot], &mut self.corners[slot]);
         for h in f.half_edges() {
@@ -187,9 +183,8 @@ impl FineBacks {
             }
         }
         let corner = |h| corners[fronts.skin.wedges.vertex_of(h) as usize] as usize;
-        let edge = |h: HalfEdgeId| self.edges.get(h.index()).map_or(0, |block| block.vertex as usize);
-        list(view.topology(), view.base, f, corner, edge, block.vertex as usize, &mut self.vertices);
-        let indices = self.faces.indices_of(block);
+        let edge = |h| self.runs.edge(h).map_or(0, |range| range.start);
+        list(view.topology(), view.base, f, corner, edge, inside.start, &mut self.vertices);
         view.base.put_triangles(part, &self.vertices, indices.start, !view.face_slots.is_flipped(f));
         self.changes[slot].indices.add(indices);
     }
@@ -203,13 +198,13 @@ impl FineBacks {
     /// Returns the vertices behind those of the edge of `h`.
     #[inline]
     pub(super) fn edge(&self, h: HalfEdgeId) -> Option<std::ops::Range<usize>> {
-        self.edges.get(h.index()).map(|block| self.edges.vertices_of(block))
+        self.runs.edge(h)
     }
 
     /// Returns the vertices behind those inside `f`.
     #[inline]
     pub(super) fn inside(&self, f: FaceId) -> Option<std::ops::Range<usize>> {
-        self.faces.get(f.index()).map(|block| self.faces.vertices_of(block))
+        self.runs.inside(f)
     }
 
     /// Copies what lies at the fronts of new vertices, and of those whose fronts stand for another place, and puts them
@@ -247,6 +242,12 @@ impl FineBacks {
         (self.new_edges, self.new_faces, self.new_rims) = (new_edges, new_faces, new_rims);
     }
 
+    /// Forgets what was new in the last update, and the memory for it.
+    pub(super) fn forget(&mut self) {
+        (self.touched, self.new_corners, self.new_rims) = (Vec::new(), Vec::new(), Vec::new());
+        (self.new_edges, self.new_faces) = (Vec::new(), Vec::new());
+    }
+
     /// Copies attributes, stains and places at rest from the front.
     fn copy(&mut self, fronts: &FineFronts, slot: usize, to: std::ops::Range<usize>, from: std::ops::Range<usize>) {
         let (part, changes, front) = (&mut self.parts[slot], &mut self.changes[slot], &fronts.parts[slot]);
@@ -279,11 +280,11 @@ impl FineBacks {
         self.changes[slot].moved.add(to.clone());
         let (part, front) = (&mut self.parts[slot], &fronts.parts[slot]);
         if let Some(places) = fronts.outlines.edge(h) {
-            let normals = view.topology().corners(h.face()).map(|v| view.normal(v));
+            let normals = view.normals(h.face());
             put_behind(part, to, front, from, depth, |i| unit(mix(normals, places[i]), normals[0]));
         } else {
-            let course = Course::of(view.topology(), h);
-            let normals = course.ends.map(|v| view.normal(v));
+            let course = Course::of(view, h);
+            let normals = [view.normal(course.ends[0]), view.normal(course.ends[1])];
             let spots = &view.base.layout.edge;
             put_behind(part, to, front, from, depth, |i| unit(course.pick(spots, i).mix(normals), normals[0]));
         }
@@ -297,7 +298,7 @@ impl FineBacks {
         let depth = view.depth(f, self.thickness);
         self.changes[slot].moved.add(to.clone());
         let (part, front) = (&mut self.parts[slot], &fronts.parts[slot]);
-        let normals = view.topology().corners(f).map(|v| view.normal(v));
+        let normals = view.normals(f);
         if let Some(places) = fronts.outlines.inside(f) {
             put_behind(part, to, front, from, depth, |i| unit(mix(normals, places[i]), normals[0]));
         } else {

@@ -32,6 +32,8 @@ pub(in crate::appearance) struct Base {
     joined: Arc<[bool]>,
     /// First point of each half-edge, or [`REVERSED`] with that of its twin.
     edges: Vec<u32>,
+    /// Which half-edges of each face are not the lower ones of their edges: one bit each.
+    reversed: Vec<u8>,
     /// First point inside each face.
     insides: Vec<u32>,
     positions: Vec<Vec3>,
@@ -131,6 +133,10 @@ impl Base {
         };
         let mut edges = vec![0; topology.half_edge_count()];
         let mut insides = Vec::with_capacity(topology.face_count());
+        let reversed = |f: FaceId| {
+            f.half_edges().iter().enumerate().fold(0, |bits, (k, &h)| bits | u8::from(topology.edge(h) != h) << k)
+        };
+        let reversed = topology.all_faces().map(reversed).collect();
         for f in topology.all_faces() {
             for h in f.half_edges() {
                 edges[h.index()] = match topology.rest_twin(h) {
@@ -140,7 +146,8 @@ impl Base {
             }
             insides.push(take(layout.inner_points()));
         }
-        Self { positions: vec![Vec3::ZERO; next as usize], layout, wedges, joined, edges, insides, ..Self::default() }
+        let positions = vec![Vec3::ZERO; next as usize];
+        Self { positions, layout, wedges, joined, edges, reversed, insides, ..Self::default() }
     }
 
     /// Returns for each point the value of `of` at the first face and place of its grid that has the point.
@@ -166,6 +173,12 @@ impl Base {
     #[inline]
     pub fn is_joined(&self, h: HalfEdgeId) -> bool {
         self.joined[h.index()]
+    }
+
+    /// Returns whether `h` is not the half-edge that stands for the whole edge.
+    #[inline]
+    pub fn is_reversed(&self, h: HalfEdgeId) -> bool {
+        self.reversed[h.face().index()] >> (h.index() % 3) & 1 != 0
     }
 
     /// Returns the half-edge whose points stand for the edge of `h` at rest.

@@ -46,7 +46,9 @@ pub(super) fn bend(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mu
         }
         fronts.bend_inside(view, f);
         backs.follow_inside(view, fronts, f);
-        f.half_edges().into_iter().for_each(|h| backs.follow_rim(view, fronts, h));
+        if backs.rims.any(f) {
+            f.half_edges().into_iter().for_each(|h| backs.follow_rim(view, fronts, h));
+        }
     }
 }
 
@@ -74,15 +76,14 @@ impl FineFronts {
         let (part, offsets) = (&mut parts[slot], &offsets[slot][vertices.clone()]);
         let tangent = |i| view.base.tangent(view.base.on_edge(h, i));
         if let Some(places) = outlines.edge(h) {
-            let corners = view.topology().corners(h.face()).map(|v| view.pose(v));
-            let still = corners.iter().all(|pose| pose.still);
-            let patch = Patch::new(corners.map(|pose| pose.position), corners.map(|pose| pose.normal));
+            let corners = view.poses(h.face());
+            let (still, patch) = shape(&corners);
             let at = |i: usize| on_face(&patch, &corners, places[i], &weights(places[i]));
             place(part, offsets, vertices, still, tangent, at);
             return;
         }
-        let course = Course::of(view.topology(), h);
-        let [a, b] = course.ends.map(|v| view.pose(v));
+        let course = Course::of(view, h);
+        let [a, b] = [view.pose(course.ends[0]), view.pose(course.ends[1])];
         let curve = Curve::new([a.position, b.position], [a.normal, b.normal]);
         let at = |i: usize| {
             let spot = course.pick(&view.base.layout.edge, i);
@@ -103,9 +104,8 @@ impl FineFronts {
         let slot = view.face_slots.slot(f);
         changes[slot].moved.add(vertices.clone());
         let (part, offsets) = (&mut parts[slot], &offsets[slot][vertices.clone()]);
-        let corners = view.topology().corners(f).map(|v| view.pose(v));
-        let still = corners.iter().all(|pose| pose.still);
-        let patch = Patch::new(corners.map(|pose| pose.position), corners.map(|pose| pose.normal));
+        let corners = view.poses(f);
+        let (still, patch) = shape(&corners);
         let tangent = |i| view.base.tangent(view.base.inside(f, i));
         match outlines.inside(f) {
             Some(places) => {
@@ -121,14 +121,20 @@ impl FineFronts {
     }
 }
 
+/// Returns whether a face lies as at rest, and the patch over it.
+#[inline(always)]
+fn shape([a, b, c]: &[Pose; 3]) -> (bool, Patch) {
+    let patch = Patch::new([a.position, b.position, c.position], [a.normal, b.normal, c.normal]);
+    (a.still && b.still && c.still, patch)
+}
+
 /// Returns where the point `b` of a face has come to.
 #[inline(always)]
-fn on_face(patch: &Patch, corners: &[Pose; 3], b: Vec3, weights: &[f32; 10]) -> Bent {
-    let [p, q, r] = corners.map(|pose| *pose.rotation);
+fn on_face(patch: &Patch, [p, q, r]: &[Pose; 3], b: Vec3, weights: &[f32; 10]) -> Bent {
     Bent {
         on_patch: patch.at(weights),
-        turn: p * b.x + q * b.y + r * b.z,
-        up: mix(corners.map(|pose| pose.rest_normal), b),
+        turn: *p.rotation * b.x + *q.rotation * b.y + *r.rotation * b.z,
+        up: mix([p.rest_normal, q.rest_normal, r.rest_normal], b),
     }
 }
 

@@ -66,6 +66,12 @@ impl FineFronts {
         self.renew_triangles(view);
     }
 
+    /// Forgets what was new in the last update, and the memory for it: never again is all new at once.
+    pub(super) fn forget(&mut self) {
+        self.skin.forget();
+        (self.renewed_edges, self.renewed_faces) = (Vec::new(), Vec::new());
+    }
+
     /// Puts what lies there at rest into the vertices that are new.
     fn fill(&mut self, view: &View) {
         let Self { parts, changes, skin, offsets, renewed_edges, renewed_faces, .. } = self;
@@ -81,7 +87,7 @@ impl FineFronts {
         }
         for &h in &skin.new_edges {
             let (slot, Some(vertices)) = (view.face_slots.slot(h.face()), skin.edge(h)) else { continue };
-            let course = Course::of(view.topology(), h);
+            let course = Course::of(view, h);
             let (positions, normals) = view.at_rest(course.ends);
             let curve = Curve::new(positions, normals);
             for (i, vertex) in vertices.clone().enumerate() {
@@ -137,8 +143,8 @@ impl FineFronts {
     /// gone.
     fn renew_triangles(&mut self, view: &View) {
         let Self { parts, changes, skin, vertices, .. } = self;
-        for &(f, block) in &skin.gone {
-            changes[view.face_slots.slot(f)].indices.add(skin.indices_of(block));
+        for (f, indices) in &skin.gone {
+            changes[view.face_slots.slot(*f)].indices.add(indices.clone());
         }
         for &f in &skin.led {
             let (slot, Some(indices)) = (view.face_slots.slot(f), skin.triangles(f)) else { continue };

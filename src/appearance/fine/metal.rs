@@ -4,13 +4,14 @@ use bevy_math::{Vec3, Vec4};
 
 use super::{
     base::Base,
+    runs::Runs,
     skin::list_at_rest,
     stains::{edge_stains, mean_stains},
     view::{Course, View},
 };
 use crate::{
-    appearance::{blocks::Blocks, face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
-    film::{FaceId, HalfEdgeId, VertexId},
+    appearance::{face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
+    film::{FaceId, VertexId},
     fracture::FilmForces,
 };
 
@@ -25,8 +26,7 @@ pub(in crate::appearance) struct FineMetal {
     pub changes: Vec<PartChanges>,
     /// Vertex of each wedge at rest, or [`NONE`].
     corners: Vec<u32>,
-    edges: Blocks,
-    faces: Blocks,
+    runs: Runs,
     /// Vertices of the face whose triangles are being written.
     vertices: Vec<u32>,
 }
@@ -34,12 +34,10 @@ pub(in crate::appearance) struct FineMetal {
 impl FineMetal {
     /// Returns the metal under a fresh film with `slots` slots.
     pub fn new(slots: usize, base: &Base) -> Self {
-        let layout = &base.layout;
         Self {
             parts: vec![MeshPart::default(); slots],
             changes: vec![PartChanges::default(); slots],
-            edges: Blocks::new(layout.edge_points(), 0),
-            faces: Blocks::new(layout.inner_points(), layout.grid.triangles().len()),
+            runs: Runs::new(&base.layout),
             ..Self::default()
         }
     }
@@ -59,7 +57,7 @@ impl FineMetal {
             let look = &seen.looks.metal;
             let has_changed = |v: VertexId| look.has_changed(topology.original(v).index());
             for f in topology.all_faces() {
-                if self.faces.get(f.index()).is_some() && topology.corners(f).into_iter().any(has_changed) {
+                if self.runs.has(f) && topology.corners(f).into_iter().any(has_changed) {
                     self.stain(view, seen, f);
                 }
             }
@@ -72,8 +70,7 @@ impl FineMetal {
         self.parts.iter_mut().for_each(MeshPart::clear);
         self.corners.clear();
         self.corners.resize(view.base.wedges().count(), NONE);
-        self.edges.clear(topology.half_edge_count(), slots);
-        self.faces.clear(topology.face_count(), slots);
+        self.runs.clear(topology.face_count(), slots);
         let mut counts = vec![0; slots];
         for f in topology.all_faces().filter(|&f| is_wanted(view, forces, f)) {
             counts[view.face_slots.slot(f)] += 1;
@@ -89,12 +86,12 @@ impl FineMetal {
     fn show(&mut self, view: &View, forces: &FilmForces, seen: &Seen, depth: f32, f: FaceId) {
         let (topology, slot, flipped) = (view.topology(), view.face_slots.slot(f), view.face_slots.is_flipped(f));
         let wanted = is_wanted(view, forces, f);
-        if wanted == self.faces.get(f.index()).is_some() {
+        if wanted == self.runs.has(f) {
             return;
         }
         if !wanted {
-            if let Some(block) = self.faces.release(f.index(), slot, &mut self.parts[slot]) {
-                self.changes[slot].indices.add(self.faces.indices_of(block));
+            if let Some(indices) = self.runs.release_face(f, slot, &mut self.parts[slot]) {
+                self.changes[slot].indices.add(indices);
             }
             return;
         }
@@ -114,26 +111,26 @@ impl FineMetal {
                 renew(part, *vertex as usize, base.corner(h), rest_normal(topology.origin(h)));
             }
             let lead = base.lead(topology, h);
-            if self.edges.get(lead.index()).is_none() {
-                let block = self.edges.take(lead.index(), slot, part);
-                let course = Course::of(topology, lead);
+            if self.runs.edge(lead).is_none() {
+                self.runs.take_edge(lead, slot, part);
+                let course = Course::of(view, lead);
                 let [a, b] = course.ends.map(rest_normal);
-                for (i, vertex) in self.edges.vertices_of(block).enumerate() {
+                for (i, vertex) in self.runs.edge(lead).into_iter().flatten().enumerate() {
                     let [s, t] = course.pick(&base.layout.edge, i).shares;
                     renew(part, vertex, base.on_edge(lead, i), (a * s + b * t).normalize_or(a));
                 }
             }
         }
-        let block = self.faces.take(f.index(), slot, part);
+        self.runs.take_face(f, slot, part);
+        let (Some(indices), Some(inside)) = (self.runs.triangles(f), self.runs.inside(f)) else { return };
         let [p, q, r] = topology.corners(f).map(rest_normal);
-        for ((i, vertex), spot) in self.faces.vertices_of(block).enumerate().zip(&base.layout.inside) {
+        for ((i, vertex), spot) in inside.clone().enumerate().zip(&base.layout.inside) {
             let b = spot.b;
             renew(part, vertex, base.inside(f, i), (p * b.x + q * b.y + r * b.z).normalize_or(p));
         }
         let corner = |h| self.corners[base.corner(h)] as usize;
-        let edge = |h: HalfEdgeId| self.edges.get(h.index()).map_or(0, |block| block.vertex as usize);
-        list_at_rest(topology, base, f, corner, edge, block.vertex as usize, &mut self.vertices);
-        let indices = self.faces.indices_of(block);
+        let edge = |h| self.runs.edge(h).map_or(0, |range| range.start);
+        list_at_rest(topology, base, f, corner, edge, inside.start, &mut self.vertices);
         base.put_triangles(part, &self.vertices, indices.start, flipped);
         self.changes[slot].indices.add(indices);
         self.stain(view, seen, f);
@@ -141,7 +138,7 @@ impl FineMetal {
 
     /// Writes the stains under `f`, which is shown.
     fn stain(&mut self, view: &View, seen: &Seen, f: FaceId) {
-        let Self { parts, changes, corners, edges, faces, .. } = self;
+        let Self { parts, changes, corners, runs, .. } = self;
         let (topology, layout, slot) = (view.topology(), &view.base.layout, view.face_slots.slot(f));
         let stains = &seen.looks.metal.stains;
         let at = |v: VertexId| Vec4::from_array(stains[topology.original(v).index()]);
@@ -151,16 +148,16 @@ impl FineMetal {
             to[vertex] = at(topology.origin(h)).to_array();
             stained.push(vertex);
             let lead = view.base.lead(topology, h);
-            let course = Course::of(topology, lead);
+            let course = Course::of(view, lead);
             let ends = course.ends.map(at);
-            let vertices = edges.get(lead.index()).map(|block| edges.vertices_of(block)).unwrap_or_default();
+            let vertices = runs.edge(lead).unwrap_or_default();
             for (i, to) in to[vertices.clone()].iter_mut().enumerate() {
                 *to = edge_stains(&ends, course.pick(&layout.edge, i));
             }
             stained.add(vertices);
         }
         let ends = topology.corners(f).map(at);
-        let vertices = faces.get(f.index()).map(|block| faces.vertices_of(block)).unwrap_or_default();
+        let vertices = runs.inside(f).unwrap_or_default();
         to[vertices.clone()].iter_mut().zip(&layout.inside).for_each(|(to, spot)| *to = mean_stains(&ends, spot.b));
         stained.add(vertices);
     }

@@ -15,6 +15,7 @@ mod metal;
 mod outline;
 mod patch;
 mod rims;
+mod runs;
 mod skin;
 mod stains;
 #[cfg(test)]
@@ -24,7 +25,7 @@ mod view;
 
 use std::sync::Arc;
 
-use super::{METAL_DEPTH, face_slots::FaceSlots, seen::Seen};
+use super::{METAL_DEPTH, face_slots::FaceSlots, part_changes::PartChanges, seen::Seen};
 use crate::{film::FilmMesh, fracture::FilmForces};
 use backs::FineBacks;
 pub(super) use base::Base;
@@ -66,7 +67,7 @@ impl FineSurface {
         if seen.moved {
             frames.follow(mesh, forces, seen);
         }
-        let view = View { mesh, face_slots, base, frames };
+        let view = View { mesh, face_slots, base, positions: seen.moves.positions(), frames };
         fronts.renew(&view, seen);
         backs.renew(&view, forces, seen, fronts);
         stains::stain(&view, seen, fronts, backs);
@@ -75,5 +76,11 @@ impl FineSurface {
         }
         backs.finish(&view, seen, fronts);
         metal.update(&view, forces, seen, *depth);
+        if seen.differences.whole {
+            fronts.forget();
+            backs.forget();
+        }
+        let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
+        changes.for_each(PartChanges::finish);
     }
 }

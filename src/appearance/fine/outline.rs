@@ -104,13 +104,19 @@ impl Outlines {
     /// Returns where the points of the edge of `h` lie on its face, if it is chipped.
     #[inline]
     pub fn edge(&self, h: HalfEdgeId) -> Option<&[Vec3]> {
-        self.edges.get(h.index())
+        if self.is_whole(h.face()) { None } else { self.edges.get(h.index()) }
     }
 
     /// Returns where the points inside `f` lie, if it is chipped.
     #[inline]
     pub fn inside(&self, f: FaceId) -> Option<&[Vec3]> {
-        self.insides.get(f.index())
+        if self.is_whole(f) { None } else { self.insides.get(f.index()) }
+    }
+
+    /// Returns whether no edge of `f` has torn.
+    #[inline]
+    fn is_whole(&self, f: FaceId) -> bool {
+        self.torn[f.index()] == 0
     }
 }
 

@@ -12,7 +12,7 @@ use crate::{
         part::MeshPart,
         part_changes::PartChanges,
     },
-    film::{FaceGrid, HalfEdgeId, Topology},
+    film::{FaceGrid, FaceId, HalfEdgeId, Topology},
     fracture::FilmForces,
 };
 
@@ -20,6 +20,8 @@ use crate::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rims {
     blocks: Blocks,
+    /// Number of rims of each face.
+    counts: Vec<u8>,
     /// Number of vertices in a row.
     row: usize,
 }
@@ -28,16 +30,24 @@ impl Rims {
     /// Returns no rims.
     pub fn new(grid: &FaceGrid) -> Self {
         let row = grid.edge(0).len();
-        Self { blocks: Blocks::new(2 * row, 2 * (row - 1)), row }
+        Self { blocks: Blocks::new(2 * row, 2 * (row - 1)), counts: Vec::new(), row }
     }
 
     /// Removes all rims.
     pub fn clear(&mut self, topology: &Topology, slots: usize) {
         self.blocks.clear(topology.half_edge_count(), slots);
+        self.counts.clear();
+        self.counts.resize(topology.face_count(), 0);
     }
 
     fn get(&self, h: HalfEdgeId) -> Option<Block> {
         self.blocks.get(h.index())
+    }
+
+    /// Returns whether `f` has rims.
+    #[inline]
+    pub fn any(&self, f: FaceId) -> bool {
+        self.counts[f.index()] > 0
     }
 
     /// Returns the vertices of the rim of `h`, if it has one.
@@ -67,10 +77,12 @@ impl Rims {
         if !wanted {
             if let Some(block) = self.blocks.release(h.index(), slot, part) {
                 changes.indices.add(self.blocks.indices_of(block));
+                self.counts[h.face().index()] -= 1;
             }
             return false;
         }
         let block = self.blocks.take(h.index(), slot, part);
+        self.counts[h.face().index()] += 1;
         let row = self.row as u32;
         for i in 0..row - 1 {
             let (top, bottom, index) = (block.vertex + i, block.vertex + i + row, (block.index + 6 * i) as usize);
@@ -161,11 +173,14 @@ impl Rims {
         if i + 1 == self.row {
             return view.normal(topology.target(h));
         }
-        let normals = topology.corners(h.face()).map(|v| view.normal(v));
+        let normals = view.normals(h.face());
         if let Some(places) = fronts.outlines.edge(h) {
             return unit(mix(normals, places[i - 1]), normals[0]);
         }
-        let course = Course::of(topology, h);
-        unit(course.pick(&view.base.layout.edge, i - 1).mix(course.ends.map(|v| view.normal(v))), normals[0])
+        let course = Course::of(view, h);
+        unit(
+            course.pick(&view.base.layout.edge, i - 1).mix([view.normal(course.ends[0]), view.normal(course.ends[1])]),
+            normals[0],
+        )
     }
 }

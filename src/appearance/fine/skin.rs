@@ -2,17 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{
-    base::Base,
-    layout::{Layout, Role},
-};
-use crate::appearance::{
-    blocks::{Block, Blocks},
-    face_slots::FaceSlots,
-    part::MeshPart,
-    seen::differences::Differences,
-    wedges::Wedges,
-};
+use super::{base::Base, layout::Role, runs::Runs};
+use crate::appearance::{face_slots::FaceSlots, part::MeshPart, seen::differences::Differences, wedges::Wedges};
 use crate::film::{FaceId, HalfEdgeId, Topology};
 
 /// Vertices of the fronts of all slots.
@@ -25,30 +16,22 @@ pub(in crate::appearance) struct Skin {
     pub wedges: Wedges,
     /// Vertex of each wedge of each slot.
     corners: Vec<Vec<u32>>,
-    /// Inner vertices of the edge of each half-edge that has its own.
-    edges: Blocks,
-    /// Vertices inside each face, and its triangles.
-    faces: Blocks,
+    /// Inner vertices of each half-edge that has its own; vertices inside each face, and its triangles.
+    runs: Runs,
     /// Half-edges with vertices that are new since the last update.
     pub new_edges: Vec<HalfEdgeId>,
     /// Faces with vertices inside that are new since the last update.
     pub new_faces: Vec<FaceId>,
     /// Faces whose triangles may have other corners.
     pub led: Vec<FaceId>,
-    /// Faces that lost their triangles, with the place that these had.
-    pub gone: Vec<(FaceId, Block)>,
+    /// Faces that lost their triangles, with the indices that these had.
+    pub gone: Vec<(FaceId, std::ops::Range<usize>)>,
 }
 
 impl Skin {
     /// Returns no vertices.
     pub fn new(base: &Base) -> Self {
-        let Layout { grid, .. } = &base.layout;
-        Self {
-            wedges: Wedges::new(Arc::clone(base.wedges())),
-            edges: Blocks::new(base.layout.edge_points(), 0),
-            faces: Blocks::new(base.layout.inner_points(), grid.triangles().len()),
-            ..Self::default()
-        }
+        Self { wedges: Wedges::new(Arc::clone(base.wedges())), runs: Runs::new(&base.layout), ..Self::default() }
     }
 
     /// Gives what is new about the film its vertices in `parts`, and takes those of what is gone away.
@@ -71,8 +54,8 @@ impl Skin {
         }
         for &f in &differences.gone {
             let slot = face_slots.slot(f);
-            if let Some(block) = self.faces.release(f.index(), slot, &mut parts[slot]) {
-                self.gone.push((f, block));
+            if let Some(indices) = self.runs.release_face(f, slot, &mut parts[slot]) {
+                self.gone.push((f, indices));
             }
         }
         let gone = differences.gone.iter().flat_map(|f| f.half_edges());
@@ -86,13 +69,17 @@ impl Skin {
         self.led.dedup();
     }
 
+    /// Forgets what was new in the last update, and the memory for it.
+    pub fn forget(&mut self) {
+        (self.new_edges, self.new_faces, self.led) = (Vec::new(), Vec::new(), Vec::new());
+    }
+
     /// Gives all that is shown its vertices.
     fn begin(&mut self, topology: &Topology, face_slots: &FaceSlots, base: &Base, parts: &mut [MeshPart]) {
         let layout = &base.layout;
         self.corners.clear();
         self.corners.resize_with(parts.len(), Vec::new);
-        self.edges.clear(topology.half_edge_count(), parts.len());
-        self.faces.clear(topology.face_count(), parts.len());
+        self.runs.clear(topology.face_count(), parts.len());
         let shown = || topology.live_faces().filter(|&f| !face_slots.is_hidden(f));
         let owns = |&h: &HalfEdgeId| owner(topology, base, h) == h;
         // Counted first, so that the parts have room for no more than they hold.
@@ -110,10 +97,10 @@ impl Skin {
         for f in shown() {
             let slot = face_slots.slot(f);
             for h in f.half_edges().into_iter().filter(owns) {
-                self.edges.take(h.index(), slot, &mut parts[slot]);
+                self.runs.take_edge(h, slot, &mut parts[slot]);
                 self.new_edges.push(h);
             }
-            self.faces.take(f.index(), slot, &mut parts[slot]);
+            self.runs.take_face(f, slot, &mut parts[slot]);
             self.new_faces.push(f);
         }
         self.led.extend_from_slice(&self.new_faces);
@@ -140,14 +127,12 @@ impl Skin {
     ) {
         let (f, slot) = (h.face(), face_slots.slot(h.face()));
         let wanted = topology.is_live(f) && !face_slots.is_hidden(f) && owner(topology, base, h) == h;
-        match (wanted, self.edges.get(h.index()).is_some()) {
+        match (wanted, self.edge(h).is_some()) {
             (true, false) => {
-                self.edges.take(h.index(), slot, &mut parts[slot]);
+                self.runs.take_edge(h, slot, &mut parts[slot]);
                 self.new_edges.push(h);
             }
-            (false, true) => {
-                self.edges.release(h.index(), slot, &mut parts[slot]);
-            }
+            (false, true) => self.runs.release_edge(h, slot),
             _ => {}
         }
     }
@@ -167,23 +152,18 @@ impl Skin {
     /// Returns the inner vertices of the edge of `h`, counted along it, if it has its own.
     #[inline]
     pub fn edge(&self, h: HalfEdgeId) -> Option<std::ops::Range<usize>> {
-        self.edges.get(h.index()).map(|block| self.edges.vertices_of(block))
+        self.runs.edge(h)
     }
 
     /// Returns the vertices inside `f`, if it is shown.
     #[inline]
     pub fn inside(&self, f: FaceId) -> Option<std::ops::Range<usize>> {
-        self.faces.get(f.index()).map(|block| self.faces.vertices_of(block))
+        self.runs.inside(f)
     }
 
     /// Returns the indices of the triangles of `f`, if it is shown.
     pub fn triangles(&self, f: FaceId) -> Option<std::ops::Range<usize>> {
-        self.faces.get(f.index()).map(|block| self.faces.indices_of(block))
-    }
-
-    /// Returns the indices of a face that is gone.
-    pub fn indices_of(&self, block: Block) -> std::ops::Range<usize> {
-        self.faces.indices_of(block)
+        self.runs.triangles(f)
     }
 
     /// Lists the vertices at the points of the grid of `f`, which is shown.

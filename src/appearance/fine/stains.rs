@@ -35,7 +35,7 @@ pub(super) fn stain(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &m
                 }
             }
             stain_inside(view, seen, fronts, backs, f);
-            for h in f.half_edges() {
+            for h in f.half_edges().into_iter().filter(|_| backs.rims.any(f)) {
                 let slot = view.face_slots.slot(f);
                 backs.rims.stain(view, fronts, h, &mut backs.parts[slot], &mut backs.changes[slot]);
             }
@@ -79,7 +79,7 @@ fn stain_edge(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mut Fin
         let corners = view.topology().corners(h.face()).map(at);
         to.iter_mut().zip(places).for_each(|(to, &b)| *to = mean_stains(&corners, b));
     } else {
-        let course = Course::of(view.topology(), h);
+        let course = Course::of(view, h);
         let ends = course.ends.map(at);
         for (i, to) in to.iter_mut().enumerate() {
             *to = edge_stains(&ends, course.pick(&view.base.layout.edge, i));

@@ -101,6 +101,73 @@ fn bound_neighbours_meet_at_every_level() {
 }
 
 #[test]
+fn faces_share_vertices_where_film_is_bound_and_nowhere_else() {
+    for level in 1..=3u32 {
+        let fresh = Aged::new(300, 2, level, 0.0);
+        let topology = &fresh.film.mesh.topology;
+        let (n, edges) = (1usize << level, topology.all_edges().count());
+        let unshared = 3 * 300 * (n - 1) - edges * (n - 1);
+        let points = topology.vertex_count() + edges * (n - 1) + 300 * (n - 1) * (n - 2) / 2;
+        assert_eq!(fresh.front().positions.len(), points, "level {level}: {unshared} points are spared");
+
+        let aged = Aged::new(300, 2, level, 1.0);
+        let topology = &aged.film.mesh.topology;
+        let (mut bound, mut torn) = (0, 0);
+        for h in topology.all_edges().filter(|&h| topology.is_live(h.face())) {
+            let Some(twin) = topology.rest_twin(h).filter(|twin| topology.is_live(twin.face())) else { continue };
+            let along = |h: HalfEdgeId| {
+                let vertices = aged.vertices(h.face());
+                aged.grid.edge(h.index() % 3).iter().map(|&i| vertices[i as usize]).collect::<Vec<_>>()
+            };
+            let (a, b) = (along(h), along(twin));
+            if topology.is_torn(h) {
+                assert!(a[1..n].iter().all(|vertex| !b.contains(vertex)), "both sides of a crack have their own");
+                torn += 1;
+            } else {
+                assert!(a.iter().eq(b.iter().rev()));
+                bound += 1;
+            }
+        }
+        assert!(bound > 50 && torn > 20, "{bound} {torn}");
+    }
+}
+
+#[test]
+fn seams_keep_their_vertices_apart_and_closed() {
+    let mut piece = sample::curved_plate(400, 3).unwrap();
+    // Triangles in the upper half have other texture coordinates.
+    let middle = |t: &[u32; 3]| t.iter().map(|&v| piece.surface.positions[v as usize].y).sum::<f32>() / 3.0;
+    let upper: Vec<bool> = piece.surface.triangles.iter().map(|t| middle(t) > 0.0).collect();
+    for (uv, upper) in piece.surface.uvs.chunks_exact_mut(3).zip(&upper) {
+        uv.iter_mut().filter(|_| *upper).for_each(|uv| uv.x += 3.0);
+    }
+    let mut settings = CoatingSettings::default();
+    settings.scale.grain = 0.05;
+    let mut film = FilmState::new(&piece.film, &settings, 3, 200).unwrap();
+    film.age_to(0.7, &settings, &Environment::default());
+    let FilmState { mesh, forces, stains, .. } = &film;
+    let detail = Detail { level: 2, ..Detail::default() };
+    let fine = FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap();
+    let (front, grid) = (fine.front(0).unwrap(), FaceGrid::new(2));
+    let (mut seams, mut moved) = (0, 0);
+    for h in mesh.topology.all_edges().filter(|&h| mesh.topology.is_live(h.face())) {
+        let Some(twin) = mesh.topology.bound_twin(h) else { continue };
+        let along = |h: HalfEdgeId| {
+            let vertices = vertices(&fine, &mesh.topology, h.face());
+            grid.edge(h.index() % 3).iter().map(|&i| vertices[i as usize]).collect::<Vec<_>>()
+        };
+        for (a, b) in along(h).into_iter().zip(along(twin).into_iter().rev()) {
+            assert_eq!(front.positions[a], front.positions[b], "closed to the bit");
+            let is_seam = (front.uvs[a][0] - front.uvs[b][0]).abs() > 1.0;
+            assert_eq!(a != b, is_seam);
+            seams += u32::from(is_seam);
+            moved += u32::from(is_seam && front.positions[a] != front.rest[a]);
+        }
+    }
+    assert!(seams > 20 && moved > 5, "{seams} {moved}");
+}
+
+#[test]
 fn cracks_that_have_not_opened_are_closed_exactly() {
     let mut aged = Aged::new(300, 4, 2, 0.0);
     let inner: Vec<_> =

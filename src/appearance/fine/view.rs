@@ -12,6 +12,8 @@ pub(super) struct View<'a> {
     pub mesh: &'a FilmMesh,
     pub face_slots: &'a FaceSlots,
     pub base: &'a Base,
+    /// Position at which each vertex is shown.
+    pub positions: &'a [Vec3],
     pub frames: &'a VertexFrames,
 }
 
@@ -46,12 +48,27 @@ impl<'a> View<'a> {
     pub fn pose(&self, v: VertexId) -> Pose<'a> {
         let (geometry, i) = (&self.mesh.geometry, v.index());
         Pose {
-            position: geometry.positions[i].into(),
+            position: self.positions[i].into(),
             normal: self.frames.normals[i],
             rotation: &self.frames.rotations[i],
             rest_normal: geometry.rest_normals[i].into(),
             still: self.frames.still[i],
         }
+    }
+
+    /// Returns the film at the corners of `f`.
+    // Arrays are listed where speed counts: `map` is not always inlined.
+    #[inline]
+    pub fn poses(&self, f: FaceId) -> [Pose<'a>; 3] {
+        let [a, b, c] = self.topology().corners(f);
+        [self.pose(a), self.pose(b), self.pose(c)]
+    }
+
+    /// Returns the normals of the film at the corners of `f`.
+    #[inline]
+    pub fn normals(&self, f: FaceId) -> [Vec3A; 3] {
+        let [a, b, c] = self.topology().corners(f);
+        [self.normal(a), self.normal(b), self.normal(c)]
     }
 
     /// Returns the normal of the film at a vertex.
@@ -78,9 +95,9 @@ impl<'a> View<'a> {
 
 impl Course {
     #[inline]
-    pub fn of(topology: &Topology, h: HalfEdgeId) -> Self {
-        let reversed = topology.edge(h) != h;
-        let [a, b] = [topology.origin(h), topology.target(h)];
+    pub fn of(view: &View, h: HalfEdgeId) -> Self {
+        let reversed = view.base.is_reversed(h);
+        let [a, b] = [view.topology().origin(h), view.topology().target(h)];
         Self { ends: if reversed { [b, a] } else { [a, b] }, reversed }
     }
 
