@@ -64,10 +64,9 @@ impl Blocks {
     /// Gives `key` a block in the part of slot `slot`, which grows if there is no hole.
     pub fn take(&mut self, key: usize, slot: usize, part: &mut MeshPart) -> Block {
         let block = self.free[slot].pop().unwrap_or_else(|| {
-            let block = Block { vertex: part.positions.len() as u32, index: part.indices.len() as u32 };
-            part.grow_to(part.positions.len() + self.vertices);
-            part.indices.resize(part.indices.len() + self.indices, 0);
-            block
+            let vertex = part.positions.len();
+            part.grow_to(vertex + self.vertices);
+            Block { vertex: vertex as u32, index: part.add_indices(self.indices) as u32 }
         });
         self.of[key] = block;
         block

@@ -89,14 +89,16 @@ pub(super) fn sample<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output =
     values: &[T],
     sites: &[SurfaceSite],
 ) -> Vec<T> {
-    if values.is_empty() {
-        return Vec::new();
-    }
-    let at = |site: &SurfaceSite| {
-        let first = site.triangle as usize * 3;
-        let [a, b, c] = site.weights.to_array();
-        let corner = |i: usize| values.get(first + i).copied().unwrap_or(T::ZERO);
-        corner(0) * a + corner(1) * b + corner(2) * c
-    };
-    sites.iter().map(at).collect()
+    if values.is_empty() { Vec::new() } else { sites.iter().map(|site| sample_at(values, site)).collect() }
+}
+
+/// Interpolates the corner values `values` at one site. Values that are missing count as zero.
+pub(super) fn sample_at<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output = T>>(
+    values: &[T],
+    site: &SurfaceSite,
+) -> T {
+    let first = site.triangle as usize * 3;
+    let [a, b, c] = site.weights.to_array();
+    let corner = |i: usize| values.get(first + i).copied().unwrap_or(T::ZERO);
+    corner(0) * a + corner(1) * b + corner(2) * c
 }

@@ -7,6 +7,8 @@ use crate::film::FaceGrid;
 
 /// Highest [`Detail::chips`] and [`Detail::thickness`], in grains.
 const MOST: f64 = 1.0;
+/// Highest [`Detail::tolerance`], in mean edges. As `f32` has it.
+const MOST_TOLERANCE: f64 = 0.1_f32 as f64;
 /// Highest [`Detail::pixels`].
 const MOST_PIXELS: f64 = 100.0;
 /// Share of [`Detail::pixels`] below which the distance must fall before a film is shown at a lower level, so that one
@@ -44,11 +46,16 @@ pub struct Detail {
     pub chips: f32,
     /// Thickness of the paint, in grains: 0 to 1, default 0.03, which is 0.8 mm at the default grain.
     pub thickness: f32,
+    /// Largest distance along each axis at which a vertex of the film may be shown beside where it is, in mean edges of
+    /// the film: 0 to 0.1, default 0. Paint that curls slowly is then shown again every few steps instead of after each:
+    /// at 0.01, which few images can tell, half as much or less is shown again. Small moves add up, so that paint never
+    /// lies further beside. At 0 every move is shown.
+    pub tolerance: f32,
 }
 
 impl Default for Detail {
     fn default() -> Self {
-        Self { level: 0, pixels: 0.5, chips: 0.25, thickness: 0.03 }
+        Self { level: 0, pixels: 0.5, chips: 0.25, thickness: 0.03, tolerance: 0.0 }
     }
 }
 
@@ -99,6 +106,7 @@ impl Detail {
             ("detail.pixels", f64::from(self.pixels), MOST_PIXELS, "0 to 100"),
             ("detail.chips", f64::from(self.chips), MOST, "0 to 1"),
             ("detail.thickness", f64::from(self.thickness), MOST, "0 to 1"),
+            ("detail.tolerance", f64::from(self.tolerance), MOST_TOLERANCE, "0 to 0.1"),
         ];
         let found = fields.into_iter().find(|(_, found, most, _)| !(0.0..=*most).contains(found));
         found.map(|(path, found, _, range)| (path, found, range))

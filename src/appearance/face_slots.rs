@@ -65,6 +65,11 @@ impl FaceSlots {
         self.slots[f.index()] as usize
     }
 
+    /// Returns whether two faces have the same slot and winding.
+    pub fn are_alike(&self, f: FaceId, g: FaceId) -> bool {
+        self.slot(f) == self.slot(g) && self.is_flipped(f) == self.is_flipped(g)
+    }
+
     /// Returns whether `f` runs against the winding of the prop's own triangles.
     pub fn is_flipped(&self, f: FaceId) -> bool {
         self.flipped[f.index()]

@@ -9,6 +9,7 @@ use super::{
     detail::Detail,
     face_slots::FaceSlots,
     fine::{Base, FineSurface},
+    wedges::RestWedges,
 };
 use crate::{
     film::FilmMesh,
@@ -43,6 +44,7 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct FilmLevels {
     attributes: Arc<CornerAttributes>,
+    wedges: Arc<RestWedges>,
     /// Surface at the points of the finest level; `None` if that is 0.
     finest: Option<Arc<Base>>,
     detail: Detail,
@@ -62,12 +64,13 @@ impl FilmLevels {
         detail: Detail,
     ) -> Result<Self, BuildError> {
         let attributes = CornerAttributes::sample(built, surface, mesh);
-        let finest = match detail.level {
-            0 => None,
-            level => Some(Arc::new(Base::sample(built, surface, mesh, &attributes, level)?)),
-        };
         let mut levels = Self::coarse(built, attributes, mesh, forces);
-        (levels.finest, levels.detail) = (finest, detail);
+        levels.detail = detail;
+        if detail.level > 0 {
+            let Self { attributes, wedges, face_slots, .. } = &levels;
+            let base = Base::sample(built, surface, mesh, attributes, wedges.clone(), face_slots, detail.level)?;
+            levels.finest = Some(Arc::new(base));
+        }
         Ok(levels)
     }
 
@@ -78,19 +81,26 @@ impl FilmLevels {
         mesh: &FilmMesh,
         forces: &FilmForces,
     ) -> Self {
+        let face_slots = FaceSlots::new(built, mesh.topology.face_count());
         Self {
+            wedges: Arc::new(RestWedges::new(mesh, &attributes, &face_slots)),
             attributes: Arc::new(attributes),
             finest: None,
             detail: Detail::default(),
             grain: forces.grain().map_or(mesh.geometry.mean_edge, |grain| grain.length),
-            face_slots: FaceSlots::new(built, mesh.topology.face_count()),
+            face_slots,
             epoch: 0,
         }
     }
 
+    /// Returns the distance up to which a vertex may lie beside where it is shown, in metres.
+    pub(super) fn tolerance(&self, mesh: &FilmMesh) -> f32 {
+        self.detail.tolerance * mesh.geometry.mean_edge
+    }
+
     /// Returns the finest level.
     pub fn finest(&self) -> u32 {
-        self.finest.as_ref().map_or(0, |base| base.grid.level())
+        self.finest.as_ref().map_or(0, |base| base.layout.grid.level())
     }
 
     /// Returns the appearance of the film in the state of `mesh`, `forces` and `stains` at `level`, or at the finest
@@ -101,13 +111,14 @@ impl FilmLevels {
 
     /// Returns the surface that shows a film at `level`, or at the finest that there is.
     pub(super) fn surface(&self, level: u32, mesh: &FilmMesh) -> Shown {
+        let slots = self.face_slots.slot_count();
         match &self.finest {
             Some(finest) if level > 0 => {
-                let base = if level < self.finest() { Arc::new(finest.coarser(level)) } else { finest.clone() };
+                let base = if level < self.finest() { Arc::new(finest.coarser(mesh, level)) } else { finest.clone() };
                 let [chips, thickness] = [self.detail.chips, self.detail.thickness].map(|grains| grains * self.grain);
-                Shown::Fine(Box::new(FineSurface::new(mesh, base, &self.face_slots, chips, thickness)))
+                Shown::Fine(Box::new(FineSurface::new(mesh, base, slots, chips, thickness)))
             }
-            _ => Shown::Coarse(Box::new(CoarseSurface::new(mesh, self.attributes.clone(), &self.face_slots))),
+            _ => Shown::Coarse(Box::new(CoarseSurface::new(self.attributes.clone(), self.wedges.clone(), slots))),
         }
     }
 }

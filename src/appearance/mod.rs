@@ -46,6 +46,7 @@ pub mod shading;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod wedges;
 
 pub use changes::DisplayChanges;
 pub use corners::CornerAttributes;
@@ -143,7 +144,8 @@ impl FilmAppearance {
 
     fn begin(levels: FilmLevels, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
         let (shown, level) = (levels.surface(level, mesh), level.min(levels.finest()));
-        let mut appearance = Self { levels, level, seen: Seen::default(), shown, outdated: true };
+        let seen = Seen::new(levels.tolerance(mesh));
+        let mut appearance = Self { levels, level, seen, shown, outdated: true };
         let changes = DisplayChanges::everything_in(appearance.levels.epoch);
         appearance.update(mesh, forces, stains, changes);
         appearance

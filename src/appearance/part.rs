@@ -1,6 +1,6 @@
 //! Defines [`MeshPart`], the vertex arrays of one part of a film's appearance.
 
-use super::shading::StainSample;
+use super::{corners::CornerAttributes, shading::StainSample};
 use crate::stain::shown::MOST_LAYERS;
 
 /// Vertices and triangles of one part of a film's appearance (front, backs or metal), in the film's space.
@@ -100,12 +100,37 @@ impl MeshPart {
     /// Grows the arrays that every part has to `count` vertices. The others grow as they are [set](set).
     pub(super) fn grow_to(&mut self, count: usize) {
         if count > self.positions.len() {
-            self.positions.resize(count, [0.0; 3]);
-            self.normals.resize(count, [0.0; 3]);
-            self.stains.resize(count, [0.0; 4]);
-            self.rest.resize(count, [0.0; 3]);
-            self.rest_normals.resize(count, [0.0; 3]);
+            grow(&mut self.positions, count);
+            grow(&mut self.normals, count);
+            grow(&mut self.stains, count);
+            grow(&mut self.rest, count);
+            grow(&mut self.rest_normals, count);
         }
+    }
+
+    /// Makes room for `vertices` more vertices of a part with the attributes of `like`, and for `indices` more indices.
+    pub(super) fn reserve(&mut self, vertices: usize, indices: usize, like: &CornerAttributes) {
+        fn room<T, U>(values: &mut Vec<T>, count: usize, like: &[U]) {
+            if !like.is_empty() {
+                values.reserve_exact(count);
+            }
+        }
+        self.positions.reserve_exact(vertices);
+        self.normals.reserve_exact(vertices);
+        self.stains.reserve_exact(vertices);
+        self.rest.reserve_exact(vertices);
+        self.rest_normals.reserve_exact(vertices);
+        room(&mut self.uvs, vertices, &like.uvs);
+        room(&mut self.uvs_1, vertices, &like.uvs_1);
+        room(&mut self.colors, vertices, &like.colors);
+        self.indices.reserve_exact(indices);
+    }
+
+    /// Appends so many indices, and returns the first.
+    pub(super) fn add_indices(&mut self, count: usize) -> usize {
+        let first = self.indices.len();
+        grow(&mut self.indices, first + count);
+        first
     }
 
     /// Copies the texture coordinates and the colour of vertex `from` of `other` to vertex `to`.
@@ -133,7 +158,16 @@ impl MeshPart {
 pub(super) fn set<T: Copy + Default>(values: &mut Vec<T>, i: usize, value: Option<T>) {
     let Some(value) = value else { return };
     if i >= values.len() {
-        values.resize(i + 1, T::default());
+        grow(values, i + 1);
     }
     values[i] = value;
+}
+
+/// Grows an array to `count` entries, with room for an eighth more. Doubling would leave half of the memory of large
+/// parts unused.
+fn grow<T: Copy + Default>(values: &mut Vec<T>, count: usize) {
+    if count > values.capacity() {
+        values.reserve_exact(count - values.len() + count / 8);
+    }
+    values.resize(count, T::default());
 }

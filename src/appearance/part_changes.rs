@@ -56,6 +56,13 @@ impl PartChanges {
         self.indices.clear();
     }
 
+    /// Forgets the lists, and their memory, if they say nothing.
+    pub(super) fn finish(&mut self) {
+        if self.whole {
+            *self = Self { whole: true, ..Self::default() };
+        }
+    }
+
     /// Returns whether nothing changed.
     pub fn is_empty(&self) -> bool {
         self.stained.is_empty() && self.is_stained_only()

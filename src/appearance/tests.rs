@@ -308,6 +308,68 @@ fn what_nothing_happened_to_is_not_written() {
 }
 
 #[test]
+fn paint_is_shown_within_its_tolerance_and_for_less() {
+    let piece = sample::plate(600, 3).unwrap();
+    let mut settings = CoatingSettings::default();
+    settings.scale.grain = 0.06;
+    for level in [0, 2] {
+        let mut film = FilmState::new(&piece.film, &settings, 3, 1000).unwrap();
+        film.age_to(0.5, &settings, &Environment::default());
+        let show = |film: &FilmState, tolerance: f32| {
+            let FilmState { mesh, forces, stains, .. } = film;
+            let detail = Detail { level, tolerance, ..Detail::default() };
+            FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap()
+        };
+        let (mut exact, mut near) = (show(&film, 0.0), show(&film, 0.01));
+        assert_eq!(arrays(&exact), arrays(&near), "it begins where the film is");
+        let (mut changes, mut moved, mut apart) = (DisplayChanges::default(), [0, 0], 0.0f32);
+        for _ in 0..60 {
+            film.step(&settings, &Environment::default());
+            changes.record(&film.changes, &film.stains);
+            let taken = changes.take();
+            for (shown, moved) in [&mut exact, &mut near].into_iter().zip(&mut moved) {
+                shown.update(&film.mesh, &film.forces, &film.stains, taken);
+                *moved += shown.front_changes(0).unwrap().moved.ranges().map(|range| range.len()).sum::<usize>();
+            }
+            let [a, b] = [&exact, &near].map(|shown| shown.seen.moves.positions());
+            let gaps = a.iter().zip(b).map(|(a, b)| (*a - *b).abs().max_element());
+            apart = gaps.fold(apart, f32::max);
+        }
+        let most = 0.01 * film.mesh.geometry.mean_edge;
+        assert!(apart > 0.5 * most && apart <= most, "{apart} of {most}: moves add up, and no further");
+        assert!(moved[1] * 3 < moved[0] * 2, "level {level}: {moved:?} vertices were written");
+        changes.restart();
+        near.update(&film.mesh, &film.forces, &film.stains, changes.take());
+        assert_eq!(arrays(&near), arrays(&show(&film, 0.0)), "another epoch begins where the film is");
+    }
+}
+
+#[test]
+fn duplicates_are_stained_as_they_are_and_not_as_they_were() {
+    let piece = sample::plate(200, 3).unwrap();
+    let settings = CoatingSettings::default();
+    let mut film = FilmState::new(&piece.film, &settings, 3, 100).unwrap();
+    let detail = Detail { level: 2, ..Detail::default() };
+    let show = |film: &FilmState| {
+        let FilmState { mesh, forces, stains, .. } = film;
+        FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap()
+    };
+    let mut followed = show(&film);
+    let topology = &film.mesh.topology;
+    let border = |v| topology.is_border(v);
+    let edge = topology
+        .all_edges()
+        .find(|&h| topology.rest_twin(h).is_some() && border(topology.origin(h)) != border(topology.target(h)));
+    film.tear_edge(edge.unwrap(), &settings, &Environment::default());
+    let duplicate = film.mesh.topology.vertex_count() - 1;
+    assert!(duplicate >= film.mesh.topology.original_vertex_count(), "a vertex was split");
+    // Between two looks the new vertex got dust of its own.
+    film.stains.film.dust[duplicate] = 0.7;
+    followed.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
+    assert_eq!(arrays(&followed), arrays(&show(&film)));
+}
+
+#[test]
 fn recorded_changes_bring_an_appearance_to_where_a_new_one_begins() {
     let piece = sample::plate(300, 1).unwrap();
     let settings = CoatingSettings::from(Preset::Paper);

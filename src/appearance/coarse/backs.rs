@@ -3,13 +3,14 @@
 
 use bevy_math::Vec3;
 
-use super::{fronts::Fronts, wedges::Wedges};
+use super::fronts::Fronts;
 use crate::appearance::{
     blocks::Blocks,
     face_slots::{FaceSlots, has_separated},
     part::MeshPart,
     part_changes::PartChanges,
     seen::Seen,
+    wedges::Wedges,
 };
 use crate::{
     film::{FaceId, FilmMesh},

@@ -1,6 +1,5 @@
 //! Builds the fronts of the film: its live faces, with the prop's own attributes at their corners.
 
-use super::wedges::Wedges;
 use crate::appearance::{
     blocks::Blocks,
     corners::CornerAttributes,
@@ -8,6 +7,7 @@ use crate::appearance::{
     part::{MeshPart, set},
     part_changes::PartChanges,
     seen::Seen,
+    wedges::Wedges,
 };
 use crate::film::{FilmMesh, HalfEdgeId};
 
@@ -47,8 +47,9 @@ impl Fronts {
         }
         self.renew_vertices(mesh, attributes, wedges, seen);
         self.renew_triangles(mesh, face_slots, wedges, seen);
-        self.move_vertices(mesh, attributes, wedges, seen);
-        if seen.looks.film.any {
+        self.move_vertices(attributes, wedges, seen);
+        // All vertices of new fronts are new.
+        if seen.looks.film.any && !seen.differences.whole {
             self.stain(wedges, seen);
         }
     }
@@ -103,7 +104,7 @@ impl Fronts {
     }
 
     /// Writes positions, normals and tangents of the vertices whose faces moved.
-    fn move_vertices(&mut self, mesh: &FilmMesh, attributes: &CornerAttributes, wedges: &Wedges, seen: &Seen) {
+    fn move_vertices(&mut self, attributes: &CornerAttributes, wedges: &Wedges, seen: &Seen) {
         if !seen.moved {
             return;
         }
@@ -116,7 +117,7 @@ impl Fronts {
                     continue;
                 }
                 let turn = seen.frames.turn(v);
-                *position = mesh.geometry.positions[v.index()].to_array();
+                *position = seen.moves.positions()[v.index()].to_array();
                 *normal = turn.apply(attributes.normals[h.index()]).to_array();
                 if let Some(tangent) = part.tangents.get_mut(i) {
                     let rest = attributes.tangents[h.index()];

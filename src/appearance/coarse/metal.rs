@@ -1,6 +1,5 @@
 //! Builds the bare metal: the faces of the film at rest where it has separated or is gone, moved a little inwards.
 
-use super::wedges::Wedges;
 use crate::appearance::{
     blocks::Blocks,
     corners::CornerAttributes,
@@ -8,6 +7,7 @@ use crate::appearance::{
     part::{MeshPart, set},
     part_changes::PartChanges,
     seen::Seen,
+    wedges::RestWedges,
 };
 use crate::{
     film::{FaceId, FilmMesh, HalfEdgeId},
@@ -50,7 +50,7 @@ impl Metal {
         mesh: &FilmMesh,
         forces: &FilmForces,
         face_slots: &FaceSlots,
-        wedges: &Wedges,
+        wedges: &RestWedges,
         attributes: &CornerAttributes,
         seen: &Seen,
         depth: f32,
@@ -62,7 +62,7 @@ impl Metal {
             self.corners.iter_mut().for_each(Vec::clear);
             self.blocks.clear(mesh.topology.face_count(), self.parts.len());
             self.of_wedge.clear();
-            self.of_wedge.resize(wedges.rest_count(), NONE);
+            self.of_wedge.resize(wedges.count(), NONE);
             mesh.topology.all_faces().for_each(|f| self.show(mesh, forces, face_slots, wedges, f));
         } else {
             differences.exposed.iter().for_each(|&f| self.show(mesh, forces, face_slots, wedges, f));
@@ -74,7 +74,7 @@ impl Metal {
     }
 
     /// Adds the triangle of `f` if it is exposed, and removes it if it is not.
-    fn show(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, wedges: &Wedges, f: FaceId) {
+    fn show(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, wedges: &RestWedges, f: FaceId) {
         let Self { parts, changes, blocks, of_wedge, corners } = self;
         let covered = mesh.topology.is_live(f) && !has_separated(&mesh.topology, forces, f);
         let wanted = !covered && !face_slots.is_hidden(f);
@@ -86,7 +86,7 @@ impl Metal {
         let block = if wanted {
             let block = blocks.take(f.index(), slot, part);
             let vertices = f.half_edges().map(|h| {
-                let vertex = &mut of_wedge[wedges.at_rest(h) as usize];
+                let vertex = &mut of_wedge[wedges.at(h) as usize];
                 if *vertex == NONE {
                     *vertex = corners.len() as u32;
                     corners.push(h);

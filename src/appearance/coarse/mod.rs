@@ -3,16 +3,21 @@
 mod backs;
 mod fronts;
 mod metal;
-mod wedges;
 
 use std::sync::Arc;
 
-use super::{FILM_THICKNESS, METAL_DEPTH, corners::CornerAttributes, face_slots::FaceSlots, seen::Seen};
+use super::{
+    FILM_THICKNESS, METAL_DEPTH,
+    corners::CornerAttributes,
+    face_slots::FaceSlots,
+    part_changes::PartChanges,
+    seen::Seen,
+    wedges::{RestWedges, Wedges},
+};
 use crate::{film::FilmMesh, fracture::FilmForces};
 use backs::Backs;
 use fronts::Fronts;
 use metal::Metal;
-use wedges::Wedges;
 
 /// Fronts, backs and metal of one film, and the lookups that bring them up to date.
 #[derive(Clone, Debug)]
@@ -25,11 +30,10 @@ pub(super) struct CoarseSurface {
 }
 
 impl CoarseSurface {
-    /// Returns the parts of a film, without faces until the first [`update`](Self::update).
-    pub fn new(mesh: &FilmMesh, attributes: Arc<CornerAttributes>, face_slots: &FaceSlots) -> Self {
-        let slots = face_slots.slot_count();
+    /// Returns the parts of a film with `slots` slots, without faces until the first [`update`](Self::update).
+    pub fn new(attributes: Arc<CornerAttributes>, wedges: Arc<RestWedges>, slots: usize) -> Self {
         Self {
-            wedges: Wedges::new(mesh, &attributes, face_slots),
+            wedges: Wedges::new(wedges),
             fronts: Fronts::new(slots),
             backs: Backs::new(slots),
             metal: Metal::new(slots),
@@ -44,6 +48,8 @@ impl CoarseSurface {
         wedges.follow(&mesh.topology, face_slots, &seen.differences);
         fronts.update(mesh, face_slots, attributes, wedges, seen);
         backs.update(mesh, forces, face_slots, wedges, seen, fronts, edge * FILM_THICKNESS);
-        metal.update(mesh, forces, face_slots, wedges, attributes, seen, edge * METAL_DEPTH);
+        metal.update(mesh, forces, face_slots, wedges.at_rest(), attributes, seen, edge * METAL_DEPTH);
+        let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
+        changes.for_each(PartChanges::finish);
     }
 }

@@ -1,20 +1,20 @@
 //! Builds the fine fronts: the grids of all faces, bent with the film and chipped where it has torn.
 
+use bevy_math::{Vec3, Vec3A};
+
 use super::{
     base::{Base, Place},
-    lanes::{AtRest, Bend, LANES, collect, spread},
-    mean_stains,
-    outline::Outlines,
-    patch::Patch,
-    vertex_frames::VertexFrames,
+    outline::{Outlines, rest_patch},
+    patch::Curve,
+    skin::Skin,
+    view::{Course, View},
 };
-use crate::{
-    appearance::{
-        blocks::Blocks, corners::CornerAttributes, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges,
-        seen::Seen,
-    },
-    film::{FaceId, FilmMesh},
+use crate::appearance::{
+    part::{MeshPart, set},
+    part_changes::PartChanges,
+    seen::Seen,
 };
+use crate::film::{FaceId, HalfEdgeId};
 
 /// Fronts of all slots.
 #[derive(Clone, Debug, Default)]
@@ -22,224 +22,143 @@ pub(in crate::appearance) struct FineFronts {
     /// Vertices and triangles of the front of each slot.
     pub parts: Vec<MeshPart>,
     pub changes: Vec<PartChanges>,
+    pub skin: Skin,
     pub(super) outlines: Outlines,
-    /// First vertex of each face in the part of its slot.
-    pub(super) first: Vec<u32>,
-    /// Place of each face's triangles.
-    blocks: Blocks,
-    /// Faces that were chipped otherwise, moved, and stained otherwise in the last update.
-    pub(super) chipped: Vec<FaceId>,
-    pub(super) bent: Vec<FaceId>,
-    pub(super) stained: Vec<FaceId>,
-}
-
-/// Face with what is needed to place its points.
-struct Shape {
-    patch: Patch,
-    corners: [usize; 3],
-    /// Whether the face lies as at rest.
-    still: bool,
+    /// Offset of each vertex of each slot from the patch at rest.
+    pub(super) offsets: Vec<Vec<Vec3>>,
+    /// Half-edges whose vertices are new or stand for another place.
+    pub(super) renewed_edges: Vec<HalfEdgeId>,
+    /// Faces whose vertices inside are new or stand for another place.
+    pub(super) renewed_faces: Vec<FaceId>,
+    /// Vertices of the face whose triangles are being written.
+    vertices: Vec<u32>,
 }
 
 impl FineFronts {
-    /// Gives every face its vertices, at rest and without triangles.
-    pub fn new(mesh: &FilmMesh, face_slots: &FaceSlots, base: &Base, amplitude: f32) -> Self {
-        let slots = face_slots.slot_count();
-        let mut fronts = Self {
+    /// Returns fronts without faces in `slots` slots. Chips have an amplitude of up to `amplitude` metres.
+    pub fn new(slots: usize, base: &Base, amplitude: f32) -> Self {
+        Self {
             parts: vec![MeshPart::default(); slots],
             changes: vec![PartChanges::default(); slots],
-            outlines: Outlines::new(mesh, base, amplitude),
-            first: Vec::with_capacity(mesh.topology.face_count()),
-            blocks: Blocks::new(0, base.grid.triangles().len()),
+            skin: Skin::new(base),
+            outlines: Outlines::new(amplitude),
+            offsets: vec![Vec::new(); slots],
             ..Self::default()
-        };
-        let CornerAttributes { normals, uvs, uvs_1, tangents, colors } = &base.attributes;
-        for f in mesh.topology.all_faces() {
-            let part = &mut fronts.parts[face_slots.slot(f)];
-            fronts.first.push(part.positions.len() as u32);
-            let range = base.index(f, 0)..base.index(f, base.points);
-            copy(&mut part.positions, &base.positions, range.clone());
-            copy(&mut part.normals, normals, range.clone());
-            copy(&mut part.uvs, uvs, range.clone());
-            copy(&mut part.uvs_1, uvs_1, range.clone());
-            copy(&mut part.tangents, tangents, range.clone());
-            copy(&mut part.colors, colors, range);
         }
-        for part in &mut fronts.parts {
-            part.rest.clone_from(&part.positions);
-            part.rest_normals.clone_from(&part.normals);
-            part.stains.resize(part.positions.len(), [0.0; 4]);
-        }
-        fronts
     }
 
-    /// Brings the fronts up to date with what is different about the film.
-    pub(super) fn update(
-        &mut self,
-        mesh: &FilmMesh,
-        face_slots: &FaceSlots,
-        base: &Base,
-        frames: &VertexFrames,
-        seen: &Seen,
-    ) {
-        self.changes.iter_mut().for_each(|changes| changes.begin(seen.differences.whole));
-        self.chip(mesh, face_slots, base, seen);
-        self.renew_triangles(mesh, face_slots, base, seen);
-        self.bent.clear();
-        if seen.moved {
-            let is_turned = |f: &FaceId| mesh.topology.corners(*f).iter().any(|&v| seen.moves.is_turned(v));
-            self.bent.extend(mesh.topology.live_faces().filter(is_turned));
-            self.bend(mesh, face_slots, base, frames);
+    /// Brings triangles, and what lies at rest where, up to date with what is different about the film.
+    pub(super) fn renew(&mut self, view: &View, seen: &Seen) {
+        let differences = &seen.differences;
+        self.changes.iter_mut().for_each(|changes| changes.begin(differences.whole));
+        if differences.whole {
+            self.parts.iter_mut().for_each(MeshPart::clear);
+            self.offsets.iter_mut().for_each(Vec::clear);
+            self.outlines.clear(view.mesh, view.base);
         }
-        self.stain(mesh, face_slots, base, seen);
+        self.skin.follow(view.topology(), view.face_slots, view.base, differences, &mut self.parts);
+        for (offsets, part) in self.offsets.iter_mut().zip(&self.parts) {
+            offsets.reserve_exact(part.positions.len() - offsets.len());
+            offsets.resize(part.positions.len(), Vec3::ZERO);
+        }
+        self.fill(view);
+        self.chip(view, seen);
+        self.renew_triangles(view);
     }
 
-    /// Returns the vertices of `f` in the part of its slot.
-    pub(super) fn vertices_of(&self, base: &Base, f: FaceId) -> std::ops::Range<usize> {
-        let first = self.first[f.index()] as usize;
-        first..first + base.points
+    /// Forgets what was new in the last update, and the memory for it: never again is all new at once.
+    pub(super) fn forget(&mut self) {
+        self.skin.forget();
+        (self.renewed_edges, self.renewed_faces) = (Vec::new(), Vec::new());
+    }
+
+    /// Puts what lies there at rest into the vertices that are new.
+    fn fill(&mut self, view: &View) {
+        let Self { parts, changes, skin, offsets, renewed_edges, renewed_faces, .. } = self;
+        let base = view.base;
+        for (slot, (part, changes)) in parts.iter_mut().zip(changes.iter_mut()).enumerate() {
+            let wedges = skin.wedges.slot(slot);
+            for &wedge in &wedges.new {
+                let (vertex, point) = (skin.wedge(slot, wedge as usize), base.corner(wedges.corners[wedge as usize]));
+                put(part, vertex, &base.of(point), base, point);
+                changes.renewed.push(vertex);
+                changes.stained.push(vertex);
+            }
+        }
+        for &h in &skin.new_edges {
+            let (slot, Some(vertices)) = (view.face_slots.slot(h.face()), skin.edge(h)) else { continue };
+            let course = Course::of(view, h);
+            let (positions, normals) = view.at_rest(course.ends);
+            let curve = Curve::new(positions, normals);
+            for (i, vertex) in vertices.clone().enumerate() {
+                let point = base.on_edge(h, i);
+                let place = base.of(point);
+                let at_rest = curve.at(&course.pick(&base.layout.edge, i).weights);
+                offsets[slot][vertex] = (Vec3A::from(place.position) - at_rest).into();
+                put(&mut parts[slot], vertex, &place, base, point);
+            }
+            changes[slot].renewed.add(vertices);
+        }
+        for &f in &skin.new_faces {
+            let (slot, Some(vertices)) = (view.face_slots.slot(f), skin.inside(f)) else { continue };
+            let patch = rest_patch(view, f);
+            for ((i, vertex), spot) in vertices.clone().enumerate().zip(&base.layout.inside) {
+                let point = base.inside(f, i);
+                let place = base.of(point);
+                offsets[slot][vertex] = (Vec3A::from(place.position) - patch.at(&spot.weights)).into();
+                put(&mut parts[slot], vertex, &place, base, point);
+            }
+            changes[slot].renewed.add(vertices);
+        }
+        renewed_edges.clone_from(&skin.new_edges);
+        renewed_faces.clone_from(&skin.new_faces);
     }
 
     /// Shapes the outlines of faces at edges that have torn.
-    fn chip(&mut self, mesh: &FilmMesh, face_slots: &FaceSlots, base: &Base, seen: &Seen) {
-        let Self { parts, changes, outlines, first, chipped, .. } = self;
-        chipped.clear();
-        if seen.differences.whole {
-            chipped.extend(mesh.topology.live_faces());
-        } else {
-            chipped.extend(seen.differences.tears.iter().map(|h| h.face()).filter(|&f| mesh.topology.is_live(f)));
-        }
-        chipped.retain(|&f| outlines.has_torn(mesh, f));
-        for &f in chipped.iter() {
-            let (slot, first) = (face_slots.slot(f), first[f.index()] as usize);
-            outlines.shape(mesh, base, f, |i, place| put(&mut parts[slot], first + i, place));
-            changes[slot].renewed.add(first..first + base.points);
-        }
-    }
-
-    /// Adds and removes triangles.
-    fn renew_triangles(&mut self, mesh: &FilmMesh, face_slots: &FaceSlots, base: &Base, seen: &Seen) {
-        let Self { parts, changes, blocks, first, .. } = self;
-        if seen.differences.whole {
-            parts.iter_mut().for_each(|part| part.indices.clear());
-            blocks.clear(mesh.topology.face_count(), parts.len());
-            for f in mesh.topology.live_faces().filter(|&f| !face_slots.is_hidden(f)) {
-                let slot = face_slots.slot(f);
-                let index = blocks.take(f.index(), slot, &mut parts[slot]).index;
-                base.put_triangles(&mut parts[slot], first[f.index()], index, face_slots.is_flipped(f));
-            }
-        }
-        for &f in &seen.differences.gone {
-            let slot = face_slots.slot(f);
-            if let Some(block) = blocks.release(f.index(), slot, &mut parts[slot]) {
-                changes[slot].indices.add(blocks.indices_of(block));
-            }
-        }
-    }
-
-    /// Writes positions, normals and tangents of the faces with a corner that moved or turned.
-    fn bend(&mut self, mesh: &FilmMesh, face_slots: &FaceSlots, base: &Base, frames: &VertexFrames) {
-        let Self { parts, changes, outlines, first, bent, .. } = self;
-        for &f in bent.iter() {
-            let shape = shape(mesh, frames, f);
-            let (slot, first) = (face_slots.slot(f), first[f.index()] as usize);
-            let part = &mut parts[slot];
-            changes[slot].moved.add(first..first + base.points);
-            if shape.still {
-                for i in 0..base.points {
-                    let to = first + i;
-                    part.positions[to] = part.rest[to];
-                    part.normals[to] = part.rest_normals[to];
-                    if let Some(tangent) = part.tangents.get_mut(to) {
-                        *tangent = base.attributes.tangents[base.index(f, i)].to_array();
-                    }
+    fn chip(&mut self, view: &View, seen: &Seen) {
+        let Self { parts, changes, skin, outlines, offsets, renewed_edges, renewed_faces, .. } = self;
+        let torn = seen.differences.tears.iter().map(|h| h.face());
+        let all = seen.differences.whole.then(|| view.topology().live_faces());
+        for f in torn.chain(all.into_iter().flatten()) {
+            let Some(inside) = skin.inside(f).filter(|_| outlines.has_torn(view.mesh, f)) else { continue };
+            let slot = view.face_slots.slot(f);
+            let (part, offsets) = (&mut parts[slot], &mut offsets[slot]);
+            outlines.shape(view, f, |point| {
+                let Some(mut own) = point.edge.map_or(Some(inside.clone()), |h| skin.edge(h)) else { return };
+                if let Some(vertex) = own.nth(point.i) {
+                    offsets[vertex] = point.offset.into();
+                    point.place.put(part, vertex);
                 }
-                continue;
+            });
+            for h in f.half_edges().into_iter().filter(|&h| outlines.edge(h).is_some()) {
+                changes[slot].renewed.add(skin.edge(h).unwrap_or_default());
+                renewed_edges.push(h);
             }
-            let bend = Bend {
-                patch: shape.patch,
-                rotations: shape.corners.map(|v| frames.rotations[v]),
-                rest_normals: shape.corners.map(|v| mesh.geometry.rest_normals[v]),
-            };
-            let all = outlines.places(base, f).iter().zip(outlines.offsets(base, f));
-            for (i, (places, offsets)) in all.enumerate() {
-                let from = first + i * LANES;
-                let to = (from + LANES).min(first + base.points);
-                let mut rest = AtRest {
-                    positions: collect(part.rest[from..to].iter().copied()),
-                    normals: collect(part.rest_normals[from..to].iter().copied()),
-                    ..AtRest::default()
-                };
-                // Tangents at rest are those of the base: chips shift them too little to be seen.
-                let own = base.index(f, i * LANES);
-                let tangents = base.attributes.tangents.get(own..own + to - from).unwrap_or_default();
-                rest.tangents = collect(tangents.iter().map(|t| [t.x, t.y, t.z]));
-                let bent = bend.of(places, &rest, offsets);
-                spread(&bent.positions, &mut part.positions[from..to]);
-                spread(&bent.normals, &mut part.normals[from..to]);
-                for (lane, t) in tangents.iter().enumerate() {
-                    let [x, y, z] = bent.tangents.map(|lanes| lanes[lane]);
-                    part.tangents[from + lane] = [x, y, z, t.w];
-                }
-            }
+            changes[slot].renewed.add(inside);
+            renewed_faces.push(f);
         }
     }
 
-    /// Writes the stains of faces with a corner whose stains changed.
-    fn stain(&mut self, mesh: &FilmMesh, face_slots: &FaceSlots, base: &Base, seen: &Seen) {
-        let Self { parts, changes, outlines, first, chipped, stained, .. } = self;
-        let (topology, look) = (&mesh.topology, &seen.looks.film);
-        stained.clear();
-        if seen.differences.whole {
-            stained.extend(topology.live_faces());
-        } else {
-            if look.any {
-                let has_changed = |f: &FaceId| topology.corners(*f).iter().any(|v| look.has_changed(v.index()));
-                stained.extend(topology.live_faces().filter(has_changed));
-            }
-            stained.extend_from_slice(chipped);
+    /// Writes the triangles of faces whose corners or edges have other vertices, and removes those of faces that are
+    /// gone.
+    fn renew_triangles(&mut self, view: &View) {
+        let Self { parts, changes, skin, vertices, .. } = self;
+        for (f, indices) in &skin.gone {
+            changes[view.face_slots.slot(*f)].indices.add(indices.clone());
         }
-        for &f in stained.iter() {
-            let corners = topology.corners(f).map(|v| look.stains[v.index()]);
-            let places = outlines.places(base, f);
-            let (slot, first) = (face_slots.slot(f), first[f.index()] as usize);
-            let to = &mut parts[slot].stains[first..first + base.points];
-            for (i, to) in to.iter_mut().enumerate() {
-                *to = mean_stains(&corners, places[i / LANES].at(i % LANES));
-            }
-            changes[slot].stained.add(first..first + base.points);
+        for &f in &skin.led {
+            let (slot, Some(indices)) = (view.face_slots.slot(f), skin.triangles(f)) else { continue };
+            skin.list(view.topology(), view.base, slot, f, vertices);
+            view.base.put_triangles(&mut parts[slot], vertices, indices.start, view.face_slots.is_flipped(f));
+            changes[slot].indices.add(indices);
         }
     }
 }
 
-/// Returns the shape of `f` as it is now.
-fn shape(mesh: &FilmMesh, frames: &VertexFrames, f: FaceId) -> Shape {
-    let corners = mesh.topology.corners(f).map(|v| v.index());
-    let still = corners.iter().all(|&v| frames.still[v]);
-    let patch = if still {
-        Patch::default()
-    } else {
-        Patch::new(corners.map(|v| mesh.geometry.positions[v].into()), corners.map(|v| frames.normals[v]))
-    };
-    Shape { patch, corners, still }
-}
-
-/// Appends a range of values.
-fn copy<T: Copy + Into<[f32; N]>, const N: usize>(to: &mut Vec<[f32; N]>, from: &[T], range: std::ops::Range<usize>) {
-    to.extend(from.get(range).unwrap_or_default().iter().map(|&value| value.into()));
-}
-
-/// Puts what lies at a place of the film at rest into the vertex `i`.
-fn put(part: &mut MeshPart, i: usize, place: Place) {
-    part.rest[i] = place.position.to_array();
-    part.rest_normals[i] = place.normal.to_array();
-    if let Some(uv) = place.uv {
-        part.uvs[i] = uv.to_array();
-    }
-    if let Some(uv) = place.uv_1 {
-        part.uvs_1[i] = uv.to_array();
-    }
-    if let Some(color) = place.color {
-        part.colors[i] = color.to_array();
-    }
+/// Puts a place at rest with its tangent into a vertex, which lies there until it is moved.
+fn put(part: &mut MeshPart, vertex: usize, place: &Place, base: &Base, point: usize) {
+    place.put(part, vertex);
+    part.positions[vertex] = part.rest[vertex];
+    part.normals[vertex] = part.rest_normals[vertex];
+    set(&mut part.tangents, vertex, base.tangent(point).map(|tangent| tangent.to_array()));
 }

@@ -5,44 +5,59 @@ use bevy_math::{Vec3, Vec3A};
 use super::{
     base::{Base, Place},
     chips::Chip,
-    lanes::{LANES, Lanes, Places, collect},
     patch::{Patch, weights},
+    view::View,
 };
 use crate::film::{FaceId, FilmMesh, HalfEdgeId};
 
-/// Entry of a face whose outline is straight.
+/// Entry of what is not chipped.
 const STRAIGHT: u32 = u32::MAX;
 
-/// Where the points of each face's grid lie on the film, now that edges have torn.
+/// Where the points of chipped faces lie on them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
     /// Largest amplitude of chips, in metres.
     amplitude: f32,
     /// Which edges of each face have torn: one bit each.
     torn: Vec<u8>,
-    /// Block of `chipped` that a face has, or [`STRAIGHT`].
-    block: Vec<u32>,
-    /// Where the points of chipped faces lie.
-    chipped: Vec<Places>,
-    /// Blocks of `chipped` that no face has any more.
-    free: Vec<u32>,
-    /// Offset of each point of each face from the patch at rest, eight in each entry.
-    offsets: Vec<[Lanes; 3]>,
+    edges: Shifted,
+    insides: Shifted,
+}
+
+/// Barycentric coordinates of the points of edges or faces that chips have shifted.
+#[derive(Clone, Debug, Default)]
+struct Shifted {
+    /// Number of points of each.
+    count: usize,
+    /// Block of `places` that each has, or [`STRAIGHT`].
+    of: Vec<u32>,
+    places: Vec<Vec3>,
+}
+
+/// A point that was shifted: where on its face it is, and what lies there at rest.
+pub(super) struct ShapedPoint {
+    /// Half-edge on which it lies; `None` for a point inside.
+    pub edge: Option<HalfEdgeId>,
+    /// Which of the points of the edge, or inside, it is.
+    pub i: usize,
+    pub place: Place,
+    /// Offset of the place from the patch at rest.
+    pub offset: Vec3A,
 }
 
 impl Outlines {
-    /// Returns the outlines of a film without cracks.
-    pub fn new(mesh: &FilmMesh, base: &Base, amplitude: f32) -> Self {
-        let faces = mesh.topology.face_count();
-        let mut offsets = Vec::with_capacity(faces * base.places.len());
-        for f in mesh.topology.all_faces() {
-            let patch = rest_patch(mesh, f);
-            let points = base.positions[base.index(f, 0)..base.index(f, base.points)].chunks(LANES);
-            let offset = |(&at, &b): (&Vec3, &Vec3)| (Vec3A::from(at) - patch.at(&weights(b))).to_array();
-            let all = points.zip(base.grid.points().chunks(LANES));
-            offsets.extend(all.map(|(points, b)| collect(points.iter().zip(b).map(offset))));
-        }
-        Self { amplitude, torn: vec![0; faces], block: vec![STRAIGHT; faces], offsets, ..Self::default() }
+    /// Returns outlines with chips of an amplitude of up to `amplitude` metres.
+    pub fn new(amplitude: f32) -> Self {
+        Self { amplitude, ..Self::default() }
+    }
+
+    /// Makes all outlines straight.
+    pub fn clear(&mut self, mesh: &FilmMesh, base: &Base) {
+        let (topology, layout) = (&mesh.topology, &base.layout);
+        self.torn.clear();
+        self.torn.resize(topology.face_count(), 0);
+        self.edges.clear(layout.edge_points(), topology.half_edge_count());
+        self.insides.clear(layout.inner_points(), topology.face_count());
     }
 
     /// Returns whether other edges of `f` have torn than when this was last called for it.
@@ -52,109 +67,98 @@ impl Outlines {
         std::mem::replace(&mut self.torn[f.index()], torn) != torn
     }
 
-    /// Shapes the outline of `f` again, and calls `put` with each of its points and what lies there at rest.
-    pub fn shape(&mut self, mesh: &FilmMesh, base: &Base, f: FaceId, mut put: impl FnMut(usize, Place)) {
-        let chips = self.chips(mesh, f);
-        let block = self.block[f.index()];
+    /// Shapes the outline of `f` again, and calls `put` with each point that chips shift: those on chipped edges and
+    /// those inside.
+    pub fn shape(&mut self, view: &View, f: FaceId, mut put: impl FnMut(ShapedPoint)) {
+        let layout = &view.base.layout;
+        let chips = f.half_edges().map(|h| Chip::of(view.mesh, h, self.amplitude));
         if chips.iter().all(Option::is_none) {
-            if block != STRAIGHT {
-                self.straighten(mesh, base, f, put);
-            }
             return;
         }
-        if block == STRAIGHT {
-            self.block[f.index()] = self.free.pop().unwrap_or_else(|| {
-                self.chipped.extend_from_slice(&base.places);
-                (self.chipped.len() / base.places.len() - 1) as u32
-            });
-        }
-        let first = self.block[f.index()] as usize * base.places.len();
-        let patch = rest_patch(mesh, f);
-        for (i, &b) in base.grid.points().iter().enumerate() {
-            let shifted = b + shift(&chips, b);
-            let mut place = base.at(f, shifted);
-            if let Some(on_edge) = self.place_on_crack(mesh, base, f, &chips, b) {
-                place.position = on_edge;
+        let patch = rest_patch(view, f);
+        let mut shape = |edge: Option<HalfEdgeId>, i: usize, shifted: Vec3, place: Place| {
+            let offset = Vec3A::from(place.position) - patch.at(&weights(shifted));
+            put(ShapedPoint { edge, i, place, offset });
+        };
+        for ((h, chip), points) in f.half_edges().into_iter().zip(&chips).zip(&layout.edges) {
+            let Some(chip) = chip else { continue };
+            for (i, (to, &b)) in self.edges.shift(h.index()).iter_mut().zip(points).enumerate() {
+                // Chips of the other edges end at the corners.
+                let distance = chip.shift(b);
+                *to = b + chip.moved(distance);
+                let mut place = view.base.at(f, *to);
+                if distance < 0.0
+                    && let Some(position) = other_side(view, h, b, self.amplitude)
+                {
+                    place.position = position;
+                }
+                shape(Some(h), i, *to, place);
             }
-            self.set_offset(base, f, i, Vec3A::from(place.position) - patch.at(&weights(shifted)));
-            self.chipped[first + i / LANES].set(i % LANES, shifted);
-            put(i, place);
+        }
+        for (i, (to, spot)) in self.insides.shift(f.index()).iter_mut().zip(&layout.inside).enumerate() {
+            *to = chips.iter().flatten().fold(spot.b, |sum, chip| sum + chip.moved(chip.shift(spot.b)));
+            shape(None, i, *to, view.base.at(f, *to));
         }
     }
 
-    /// Takes the chips of `f` back, as when its film goes back in time.
-    fn straighten(&mut self, mesh: &FilmMesh, base: &Base, f: FaceId, mut put: impl FnMut(usize, Place)) {
-        self.free.push(std::mem::replace(&mut self.block[f.index()], STRAIGHT));
-        let patch = rest_patch(mesh, f);
-        for (i, &b) in base.grid.points().iter().enumerate() {
-            let place = base.of(f, i);
-            self.set_offset(base, f, i, Vec3A::from(place.position) - patch.at(&weights(b)));
-            put(i, place);
-        }
-    }
-
-    fn set_offset(&mut self, base: &Base, f: FaceId, i: usize, offset: Vec3A) {
-        let lanes = &mut self.offsets[f.index() * base.places.len() + i / LANES];
-        for (lanes, x) in lanes.iter_mut().zip(offset.to_array()) {
-            lanes[i % LANES] = x;
-        }
-    }
-
-    /// Returns where the points of `f` lie on it.
+    /// Returns where the points of the edge of `h` lie on its face, if it is chipped.
     #[inline]
-    pub fn places<'a>(&'a self, base: &'a Base, f: FaceId) -> &'a [Places] {
-        let (block, count) = (self.block[f.index()], base.places.len());
-        if block == STRAIGHT { &base.places } else { &self.chipped[block as usize * count..][..count] }
+    pub fn edge(&self, h: HalfEdgeId) -> Option<&[Vec3]> {
+        if self.is_whole(h.face()) { None } else { self.edges.get(h.index()) }
     }
 
-    /// Returns the offsets of the points of `f` from the patch at rest.
+    /// Returns where the points inside `f` lie, if it is chipped.
     #[inline]
-    pub fn offsets(&self, base: &Base, f: FaceId) -> &[[Lanes; 3]] {
-        &self.offsets[f.index() * base.places.len()..][..base.places.len()]
+    pub fn inside(&self, f: FaceId) -> Option<&[Vec3]> {
+        if self.is_whole(f) { None } else { self.insides.get(f.index()) }
     }
 
-    fn chips(&self, mesh: &FilmMesh, f: FaceId) -> [Option<Chip>; 3] {
-        f.half_edges().map(|h| Chip::of(mesh, h, self.amplitude))
-    }
-
-    /// Returns the rest position of the point `b` of `f` if it lies on a chipped edge. Both faces at the edge get the
-    /// same bits: the position on the face into which the curve leads there.
-    fn place_on_crack(
-        &self,
-        mesh: &FilmMesh,
-        base: &Base,
-        f: FaceId,
-        chips: &[Option<Chip>; 3],
-        b: Vec3,
-    ) -> Option<Vec3> {
-        // Half-edge k lies opposite corner k + 2. The corners themselves stay.
-        let k = (0..3).find(|&k| b[(k + 2) % 3] == 0.0 && b[k] > 0.0 && b[(k + 1) % 3] > 0.0)?;
-        let chip = chips[k].as_ref()?;
-        let h = HalfEdgeId(f.0 * 3 + k as u32);
-        if chip.shift(b) >= 0.0 {
-            return Some(base.at(f, b + shift(chips, b)).position);
-        }
-        let twin = mesh.topology.rest_twin(h)?;
-        let (other, j) = (twin.face(), twin.index() % 3);
-        let mut there = Vec3::ZERO;
-        there[j] = b[(k + 1) % 3];
-        there[(j + 1) % 3] = b[k];
-        // The other edges of that face do not shift points of this one.
-        let chip = Chip::of(mesh, twin, self.amplitude)?;
-        Some(base.at(other, there + chip.moved(chip.shift(there))).position)
+    /// Returns whether no edge of `f` has torn.
+    #[inline]
+    fn is_whole(&self, f: FaceId) -> bool {
+        self.torn[f.index()] == 0
     }
 }
 
-/// Returns the change of the barycentric coordinates `b` by all chips of a face.
-fn shift(chips: &[Option<Chip>; 3], b: Vec3) -> Vec3 {
-    chips.iter().flatten().fold(Vec3::ZERO, |sum, chip| sum + chip.moved(chip.shift(b)))
+impl Shifted {
+    fn clear(&mut self, count: usize, keys: usize) {
+        self.count = count;
+        self.of.clear();
+        self.of.resize(keys, STRAIGHT);
+        self.places.clear();
+    }
+
+    #[inline]
+    fn get(&self, key: usize) -> Option<&[Vec3]> {
+        let block = self.of[key];
+        (block != STRAIGHT).then(|| &self.places[block as usize * self.count..][..self.count])
+    }
+
+    /// Returns the places of `key`, to be written.
+    fn shift(&mut self, key: usize) -> &mut [Vec3] {
+        if self.of[key] == STRAIGHT {
+            // Where there are no points, all have the same block.
+            self.of[key] = self.places.len().checked_div(self.count).unwrap_or(0) as u32;
+            self.places.resize(self.places.len() + self.count, Vec3::ZERO);
+        }
+        &mut self.places[self.of[key] as usize * self.count..][..self.count]
+    }
+}
+
+/// Returns the rest position of the point `b` on the edge of `h` where the chip leads into the face at the other side.
+/// Both faces at the edge get the same bits: the position on the face into which the curve leads there.
+fn other_side(view: &View, h: HalfEdgeId, b: Vec3, amplitude: f32) -> Option<Vec3> {
+    let twin = view.topology().rest_twin(h)?;
+    let (k, j) = (h.index() % 3, twin.index() % 3);
+    let mut there = Vec3::ZERO;
+    there[j] = b[(k + 1) % 3];
+    there[(j + 1) % 3] = b[k];
+    let chip = Chip::of(view.mesh, twin, amplitude)?;
+    Some(view.base.at(twin.face(), there + chip.moved(chip.shift(there))).position)
 }
 
 /// Returns the patch over `f` at rest.
-pub(super) fn rest_patch(mesh: &FilmMesh, f: FaceId) -> Patch {
-    let originals = mesh.topology.corners(f).map(|v| mesh.topology.original(v).index());
-    Patch::new(
-        originals.map(|v| mesh.geometry.rest_positions[v].into()),
-        originals.map(|v| mesh.geometry.rest_normals[v].into()),
-    )
+pub(super) fn rest_patch(view: &View, f: FaceId) -> Patch {
+    let (positions, normals) = view.at_rest(view.topology().corners(f));
+    Patch::new(positions, normals)
 }

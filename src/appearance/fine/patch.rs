@@ -12,21 +12,12 @@ impl Patch {
     /// Returns the patch over a face with these corners and unit normals at them.
     pub fn new(corners: [Vec3A; 3], normals: [Vec3A; 3]) -> Self {
         let third = 1.0 / 3.0;
-        // The control point a third of the way from corner i to corner j, in the plane at right angles to normal i.
-        let along = |i: usize, j: usize| {
-            let edge = corners[j] - corners[i];
-            corners[i] + (edge - normals[i] * edge.dot(normals[i])) * third
-        };
+        let along = |i: usize, j: usize| third_of_the_way(corners[i], normals[i], corners[j]);
         let sides = [along(0, 1), along(1, 0), along(1, 2), along(2, 1), along(2, 0), along(0, 2)];
         let mean = (sides[0] + sides[1] + sides[2] + sides[3] + sides[4] + sides[5]) * (1.0 / 6.0);
         let centre = mean + (mean - (corners[0] + corners[1] + corners[2]) * third) * 0.5;
         let [a, b, c] = corners;
         Self([a, b, c, sides[0], sides[1], sides[2], sides[3], sides[4], sides[5], centre])
-    }
-
-    /// Returns the control points, to which [`weights`] belong.
-    pub fn control_points(&self) -> [Vec3A; 10] {
-        self.0
     }
 
     /// Returns the point with the weights of [`weights`].
@@ -35,6 +26,32 @@ impl Patch {
         let [first, rest @ ..] = &self.0;
         rest.iter().zip(&weights[1..]).fold(*first * weights[0], |sum, (&point, &weight)| sum + point * weight)
     }
+}
+
+/// Edge of a patch: a cubic curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curve([Vec3A; 4]);
+
+impl Curve {
+    /// Returns the edge of all patches over faces with these two corners and unit normals at them.
+    #[inline]
+    pub fn new([a, b]: [Vec3A; 2], [at_a, at_b]: [Vec3A; 2]) -> Self {
+        Self([a, third_of_the_way(a, at_a, b), third_of_the_way(b, at_b, a), b])
+    }
+
+    /// Returns the point with these weights of the control points.
+    #[inline]
+    pub fn at(&self, weights: &[f32; 4]) -> Vec3A {
+        let [a, b, c, d] = self.0;
+        a * weights[0] + b * weights[1] + c * weights[2] + d * weights[3]
+    }
+}
+
+/// Returns the control point a third of the way from `a` to `b`, in the plane at right angles to the normal at `a`.
+#[inline]
+fn third_of_the_way(a: Vec3A, normal: Vec3A, b: Vec3A) -> Vec3A {
+    let edge = b - a;
+    a + (edge - normal * edge.dot(normal)) * (1.0 / 3.0)
 }
 
 /// Returns the weights of a patch's control points at the barycentric coordinates `b`, which may lie beyond the face.
@@ -76,5 +93,23 @@ mod tests {
             assert!((0.97..1.01).contains(&radius), "at {b}: {radius}");
         }
         assert_eq!(round.at(&weights(Vec3::Y)), piece[1]);
+    }
+
+    #[test]
+    fn edges_of_patches_are_their_curves() {
+        let corners = [Vec3A::ZERO, Vec3A::new(1.0, 0.2, 0.0), Vec3A::new(0.3, 0.9, 0.4)];
+        let normals = [Vec3A::Z, Vec3A::new(0.6, 0.0, 0.8), Vec3A::new(0.0, -0.6, 0.8)];
+        let patch = Patch::new(corners, normals);
+        for k in 0..3 {
+            let ends = [k, (k + 1) % 3];
+            let curve = Curve::new(ends.map(|i| corners[i]), ends.map(|i| normals[i]));
+            for i in 0..=8 {
+                let t = i as f32 / 8.0;
+                let s = 1.0 - t;
+                let on_curve = curve.at(&[s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]);
+                let on_patch = patch.at(&weights(Vec3::AXES[ends[0]] * s + Vec3::AXES[ends[1]] * t));
+                assert!(on_curve.abs_diff_eq(on_patch, 1e-6), "{on_curve} {on_patch}");
+            }
+        }
     }
 }

@@ -2,15 +2,17 @@
 
 use bevy_math::Vec3A;
 
-use super::{base::Base, fronts::FineFronts, unit};
+use super::{
+    fronts::FineFronts,
+    view::{Course, View, mix, unit},
+};
 use crate::{
     appearance::{
         blocks::{Block, Blocks},
-        face_slots::FaceSlots,
         part::MeshPart,
         part_changes::PartChanges,
     },
-    film::{FaceGrid, FilmMesh, HalfEdgeId},
+    film::{FaceGrid, FaceId, HalfEdgeId, Topology},
     fracture::FilmForces,
 };
 
@@ -18,112 +20,167 @@ use crate::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rims {
     blocks: Blocks,
-}
-
-/// The back of one face.
-pub(super) struct Backside<'a> {
-    /// Thickness of the paint, against the normals of the film.
-    pub depth: f32,
-    /// Unit normal of the film at each point of the face, outwards as the prop has it.
-    pub normals: &'a [[f32; 3]],
+    /// Number of rims of each face.
+    counts: Vec<u8>,
+    /// Number of vertices in a row.
+    row: usize,
 }
 
 impl Rims {
     /// Returns no rims.
     pub fn new(grid: &FaceGrid) -> Self {
         let row = grid.edge(0).len();
-        Self { blocks: Blocks::new(2 * row, 2 * (row - 1)) }
+        Self { blocks: Blocks::new(2 * row, 2 * (row - 1)), counts: Vec::new(), row }
     }
 
     /// Removes all rims.
-    pub fn clear(&mut self, mesh: &FilmMesh, slots: usize) {
-        self.blocks.clear(mesh.topology.half_edge_count(), slots);
+    pub fn clear(&mut self, topology: &Topology, slots: usize) {
+        self.blocks.clear(topology.half_edge_count(), slots);
+        self.counts.clear();
+        self.counts.resize(topology.face_count(), 0);
     }
 
     fn get(&self, h: HalfEdgeId) -> Option<Block> {
         self.blocks.get(h.index())
     }
 
+    /// Returns whether `f` has rims.
+    #[inline]
+    pub fn any(&self, f: FaceId) -> bool {
+        self.counts[f.index()] > 0
+    }
+
     /// Returns the vertices of the rim of `h`, if it has one.
+    #[inline]
     pub fn vertices_of(&self, h: HalfEdgeId) -> Option<std::ops::Range<usize>> {
         self.get(h).map(|block| self.blocks.vertices_of(block))
     }
 
     /// Adds a rim to `h` if its face has a back and it is a free edge between vertices that have separated; otherwise
-    /// removes it.
+    /// removes it. Returns whether it is new.
     pub fn show(
         &mut self,
-        mesh: &FilmMesh,
+        view: &View,
         forces: &FilmForces,
-        face_slots: &FaceSlots,
         has_back: bool,
-        base: &Base,
         h: HalfEdgeId,
         part: &mut MeshPart,
         changes: &mut PartChanges,
-    ) {
-        let (topology, slot) = (&mesh.topology, face_slots.slot(h.face()));
+    ) -> bool {
+        let (topology, slot) = (view.topology(), view.face_slots.slot(h.face()));
         let ends = [topology.origin(h), topology.target(h)];
         let is_free = topology.bound_twin(h).is_none() && !ends.iter().any(|&v| forces.is_attached(v));
         let wanted = has_back && is_free;
         if wanted == self.get(h).is_some() {
-            return;
+            return false;
         }
         if !wanted {
             if let Some(block) = self.blocks.release(h.index(), slot, part) {
                 changes.indices.add(self.blocks.indices_of(block));
+                self.counts[h.face().index()] -= 1;
             }
-            return;
+            return false;
         }
         let block = self.blocks.take(h.index(), slot, part);
-        let row = base.grid.edge(h.index() % 3).len() as u32;
+        self.counts[h.face().index()] += 1;
+        let row = self.row as u32;
         for i in 0..row - 1 {
             let (top, bottom, index) = (block.vertex + i, block.vertex + i + row, (block.index + 6 * i) as usize);
-            let flipped = face_slots.is_flipped(h.face());
+            let flipped = view.face_slots.is_flipped(h.face());
             part.put_triangle(index, [top, bottom, bottom + 1], flipped);
             part.put_triangle(index + 3, [top, bottom + 1, top + 1], flipped);
         }
         changes.indices.add(self.blocks.indices_of(block));
+        true
     }
 
-    /// Returns each vertex of the rim of `h`, if it has one, and the vertex of the front that it belongs to.
-    pub fn pairs<'a>(
-        &'a self,
-        base: &'a Base,
+    /// Returns the vertex of the front at each point of a row of the rim of `h`.
+    fn fronts(&self, view: &View, fronts: &FineFronts, h: HalfEdgeId) -> impl Iterator<Item = usize> + Clone + use<> {
+        let (skin, slot) = (&fronts.skin, view.face_slots.slot(h.face()));
+        let [first, last] = [h, h.next()].map(|h| skin.corner(slot, h));
+        std::iter::once(first).chain(skin.edge(h).unwrap_or_default()).chain(std::iter::once(last))
+    }
+
+    /// Copies attributes, stains and places at rest of the rim of `h`, if it has one, from the front.
+    pub fn copy(
+        &self,
+        view: &View,
         fronts: &FineFronts,
         h: HalfEdgeId,
-    ) -> impl Iterator<Item = (usize, usize)> + use<'a> {
-        let first = fronts.first[h.face().index()] as usize;
-        let edge = base.grid.edge(h.index() % 3);
-        let both = edge.iter().chain(edge).map(move |&point| first + point as usize);
-        self.vertices_of(h).into_iter().flatten().zip(both)
+        part: &mut MeshPart,
+        changes: &mut PartChanges,
+    ) {
+        let Some(vertices) = self.vertices_of(h) else { return };
+        let front = &fronts.parts[view.face_slots.slot(h.face())];
+        changes.renewed.add(vertices.clone());
+        changes.stained.add(vertices.clone());
+        let row = self.fronts(view, fronts, h);
+        for (to, from) in vertices.zip(row.clone().chain(row)) {
+            part.copy_coordinates(to, front, from);
+            part.copy_stains(to, front, from);
+        }
     }
 
-    /// Moves the rim of `h` along the outline of its face.
-    pub fn follow(
+    /// Copies the stains of the rim of `h`, if it has one, from the front.
+    pub fn stain(
         &self,
-        front: &MeshPart,
-        side: &Backside,
-        base: &Base,
-        first: usize,
+        view: &View,
+        fronts: &FineFronts,
         h: HalfEdgeId,
         part: &mut MeshPart,
+        changes: &mut PartChanges,
     ) {
+        let Some(vertices) = self.vertices_of(h) else { return };
+        let front = &fronts.parts[view.face_slots.slot(h.face())];
+        changes.stained.add(vertices.clone());
+        let row = self.fronts(view, fronts, h);
+        for (to, from) in vertices.zip(row.clone().chain(row)) {
+            part.stains[to] = front.stains[from];
+        }
+    }
+
+    /// Moves the rim of `h`, if it has one, along the outline of its face. Its back lies `thickness` behind its front.
+    pub fn follow(&self, view: &View, fronts: &FineFronts, thickness: f32, h: HalfEdgeId, part: &mut MeshPart) {
         let Some(block) = self.get(h) else { return };
-        let edge = base.grid.edge(h.index() % 3);
-        let place = |i: usize| Vec3A::from_array(front.positions[first + edge[i] as usize]);
-        for (i, &point) in edge.iter().enumerate() {
-            let (before, after) = (i.saturating_sub(1), (i + 1).min(edge.len() - 1));
-            let normal = Vec3A::from_array(side.normals[point as usize]);
-            let aside = unit((place(after) - place(before)).cross(normal), normal);
-            let vertex = first + point as usize;
+        let front = &fronts.parts[view.face_slots.slot(h.face())];
+        let depth = view.depth(h.face(), thickness);
+        let place = |vertex: usize| Vec3A::from_array(front.positions[vertex]);
+        let mut row = self.fronts(view, fronts, h).peekable();
+        let mut before = None;
+        let mut i = 0;
+        while let Some(vertex) = row.next() {
+            let (own, normal) = (place(vertex), self.normal(view, fronts, h, i));
+            let after = row.peek().map_or(own, |&next| place(next));
+            let aside = unit((after - before.unwrap_or(own)).cross(normal), normal);
             let shading = Vec3A::from_array(front.normals[vertex]);
             let top = block.vertex as usize + i;
-            let bottom = top + edge.len();
-            part.positions[top] = front.positions[vertex];
+            let bottom = top + self.row;
+            part.positions[top] = own.to_array();
             part.normals[top] = unit(shading + aside, aside).to_array();
-            part.positions[bottom] = (place(i) - normal * side.depth).to_array();
+            part.positions[bottom] = (own - normal * depth).to_array();
             part.normals[bottom] = unit(aside - shading, aside).to_array();
+            before = Some(own);
+            i += 1;
         }
+    }
+
+    /// Returns the normal of the film at the point `i` of a row of the rim of `h`.
+    fn normal(&self, view: &View, fronts: &FineFronts, h: HalfEdgeId, i: usize) -> Vec3A {
+        let topology = view.topology();
+        if i == 0 {
+            return view.normal(topology.origin(h));
+        }
+        if i + 1 == self.row {
+            return view.normal(topology.target(h));
+        }
+        let normals = view.normals(h.face());
+        if let Some(places) = fronts.outlines.edge(h) {
+            return unit(mix(normals, places[i - 1]), normals[0]);
+        }
+        let course = Course::of(view, h);
+        unit(
+            course.pick(&view.base.layout.edge, i - 1).mix([view.normal(course.ends[0]), view.normal(course.ends[1])]),
+            normals[0],
+        )
     }
 }

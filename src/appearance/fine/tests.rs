@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use bevy_math::Vec3;
 
-use super::chips::Chip;
+use super::{FineSurface, chips::Chip};
 use crate::{
-    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, tests::shown},
-    film::{FaceGrid, FilmMesh, HalfEdgeId},
+    appearance::{Detail, DisplayChanges, FilmAppearance, MeshPart, Shown, tests::shown},
+    film::{FaceGrid, FaceId, FilmMesh, HalfEdgeId, Topology},
     remesh::{
         BuiltFilm,
         sample::{self, TestPiece},
@@ -42,12 +42,30 @@ impl Aged {
         self.fine.front(0).unwrap()
     }
 
+    fn surface(&self) -> &FineSurface {
+        let Shown::Fine(surface) = &self.fine.shown else { panic!("it is fine") };
+        surface
+    }
+
+    /// Vertices of the front at the points of the grid of `f`.
+    fn vertices(&self, f: FaceId) -> Vec<usize> {
+        vertices(&self.fine, &self.film.mesh.topology, f)
+    }
+
     /// Positions of the front along the half-edge `h`.
     fn edge(&self, h: HalfEdgeId) -> Vec<Vec3> {
-        let first = h.face().index() * self.grid.points().len();
-        let edge = self.grid.edge(h.index() % 3);
-        edge.iter().map(|&i| Vec3::from_array(self.front().positions[first + i as usize])).collect()
+        let vertices = self.vertices(h.face());
+        let edge = self.grid.edge(h.index() % 3).iter();
+        edge.map(|&i| Vec3::from_array(self.front().positions[vertices[i as usize]])).collect()
     }
+}
+
+/// Vertices of the front of a film with one slot at the points of the grid of `f`.
+fn vertices(fine: &FilmAppearance, topology: &Topology, f: FaceId) -> Vec<usize> {
+    let Shown::Fine(surface) = &fine.shown else { panic!("it is fine") };
+    let mut vertices = Vec::new();
+    surface.fronts.skin.list(topology, &surface.base, 0, f, &mut vertices);
+    vertices.into_iter().map(|vertex| vertex as usize).collect()
 }
 
 /// Largest distance between the points of two edges that run against each other.
@@ -80,6 +98,73 @@ fn bound_neighbours_meet_at_every_level() {
         assert!(bound > 200 && moved > 100, "{bound} edges, {moved} of them moved");
         assert!(aged.front().positions.iter().flatten().all(|x| x.is_finite()));
     }
+}
+
+#[test]
+fn faces_share_vertices_where_film_is_bound_and_nowhere_else() {
+    for level in 1..=3u32 {
+        let fresh = Aged::new(300, 2, level, 0.0);
+        let topology = &fresh.film.mesh.topology;
+        let (n, edges) = (1usize << level, topology.all_edges().count());
+        let unshared = 3 * 300 * (n - 1) - edges * (n - 1);
+        let points = topology.vertex_count() + edges * (n - 1) + 300 * (n - 1) * (n - 2) / 2;
+        assert_eq!(fresh.front().positions.len(), points, "level {level}: {unshared} points are spared");
+
+        let aged = Aged::new(300, 2, level, 1.0);
+        let topology = &aged.film.mesh.topology;
+        let (mut bound, mut torn) = (0, 0);
+        for h in topology.all_edges().filter(|&h| topology.is_live(h.face())) {
+            let Some(twin) = topology.rest_twin(h).filter(|twin| topology.is_live(twin.face())) else { continue };
+            let along = |h: HalfEdgeId| {
+                let vertices = aged.vertices(h.face());
+                aged.grid.edge(h.index() % 3).iter().map(|&i| vertices[i as usize]).collect::<Vec<_>>()
+            };
+            let (a, b) = (along(h), along(twin));
+            if topology.is_torn(h) {
+                assert!(a[1..n].iter().all(|vertex| !b.contains(vertex)), "both sides of a crack have their own");
+                torn += 1;
+            } else {
+                assert!(a.iter().eq(b.iter().rev()));
+                bound += 1;
+            }
+        }
+        assert!(bound > 50 && torn > 20, "{bound} {torn}");
+    }
+}
+
+#[test]
+fn seams_keep_their_vertices_apart_and_closed() {
+    let mut piece = sample::curved_plate(400, 3).unwrap();
+    // Triangles in the upper half have other texture coordinates.
+    let middle = |t: &[u32; 3]| t.iter().map(|&v| piece.surface.positions[v as usize].y).sum::<f32>() / 3.0;
+    let upper: Vec<bool> = piece.surface.triangles.iter().map(|t| middle(t) > 0.0).collect();
+    for (uv, upper) in piece.surface.uvs.chunks_exact_mut(3).zip(&upper) {
+        uv.iter_mut().filter(|_| *upper).for_each(|uv| uv.x += 3.0);
+    }
+    let mut settings = CoatingSettings::default();
+    settings.scale.grain = 0.05;
+    let mut film = FilmState::new(&piece.film, &settings, 3, 200).unwrap();
+    film.age_to(0.7, &settings, &Environment::default());
+    let FilmState { mesh, forces, stains, .. } = &film;
+    let detail = Detail { level: 2, ..Detail::default() };
+    let fine = FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap();
+    let (front, grid) = (fine.front(0).unwrap(), FaceGrid::new(2));
+    let (mut seams, mut moved) = (0, 0);
+    for h in mesh.topology.all_edges().filter(|&h| mesh.topology.is_live(h.face())) {
+        let Some(twin) = mesh.topology.bound_twin(h) else { continue };
+        let along = |h: HalfEdgeId| {
+            let vertices = vertices(&fine, &mesh.topology, h.face());
+            grid.edge(h.index() % 3).iter().map(|&i| vertices[i as usize]).collect::<Vec<_>>()
+        };
+        for (a, b) in along(h).into_iter().zip(along(twin).into_iter().rev()) {
+            assert_eq!(front.positions[a], front.positions[b], "closed to the bit");
+            let is_seam = (front.uvs[a][0] - front.uvs[b][0]).abs() > 1.0;
+            assert_eq!(a != b, is_seam);
+            seams += u32::from(is_seam);
+            moved += u32::from(is_seam && front.positions[a] != front.rest[a]);
+        }
+    }
+    assert!(seams > 20 && moved > 5, "{seams} {moved}");
 }
 
 #[test]
@@ -121,16 +206,17 @@ fn rims_join_fronts_and_backs() {
         .all_faces()
         .map(|f| topology.is_live(f) && topology.corners(f).iter().all(|&v| !aged.film.forces.is_attached(v)))
         .collect();
-    let points = aged.grid.points().len() as u32;
-    let is_separated = |vertex: u32| separated[(vertex / points) as usize];
     let mut count = |part: &MeshPart, t: &[u32]| {
         for k in 0..3 {
             let [a, b] = [t[k], t[(k + 1) % 3]].map(|v| place(part.positions[v as usize]));
             *edges.entry((a.min(b), a.max(b))).or_insert(0) += 1;
         }
     };
-    for t in aged.front().triangles().filter(|t| is_separated(t[0])) {
-        count(aged.front(), &t);
+    for f in topology.live_faces().filter(|f| separated[f.index()]) {
+        let vertices = aged.vertices(f);
+        for t in aged.grid.triangles() {
+            count(aged.front(), &t.map(|i| vertices[i as usize] as u32));
+        }
     }
     for t in backs.triangles() {
         count(backs, &t);
@@ -138,19 +224,18 @@ fn rims_join_fronts_and_backs() {
     let open = edges.values().filter(|&&n| n == 1).count();
     // Backs of faces that are partly attached have no front here.
     assert!(open * 5 < edges.len(), "{open} of {} edges are open", edges.len());
-    let rims = backs.positions.len() / points as usize;
-    assert!(rims > 100);
+    let rims = topology.all_half_edges().filter(|&h| aged.surface().backs.rims.vertices_of(h).is_some()).count();
+    assert!(rims > 100, "{rims}");
 }
 
 #[test]
 fn nothing_dips_below_the_props_surface() {
     let aged = Aged::new(700, 6, 2, 1.0);
     let (mesh, front) = (&aged.film.mesh, aged.front());
-    let points = aged.grid.points().len();
     for f in mesh.topology.live_faces() {
+        let vertices = aged.vertices(f);
         let normals = mesh.topology.corners(f).map(|v| mesh.geometry.rest_normals[v.index()]);
-        for (i, b) in aged.grid.points().iter().enumerate() {
-            let at = f.index() * points + i;
+        for (&at, b) in vertices.iter().zip(aged.grid.points()) {
             let up = normals[0] * b.x + normals[1] * b.y + normals[2] * b.z;
             let height = (Vec3::from_array(front.positions[at]) - Vec3::from_array(front.rest[at])).dot(up);
             assert!(height > -0.01 * mesh.geometry.mean_edge, "{height}");
@@ -201,9 +286,9 @@ fn other_levels_show_the_same_film() {
             let grid = FaceGrid::new(level);
             let own = aged.grid.points_of(&grid);
             for f in mesh.topology.live_faces() {
-                for (i, &of_finest) in own.iter().enumerate() {
-                    let place = front.positions[f.index() * own.len() + i];
-                    let fine = finest.positions[f.index() * aged.grid.points().len() + of_finest as usize];
+                let (vertices, of_finest) = (vertices(&other, &mesh.topology, f), aged.vertices(f));
+                for (vertex, &i) in vertices.into_iter().zip(&own) {
+                    let (place, fine) = (front.positions[vertex], finest.positions[of_finest[i as usize]]);
                     let gap = Vec3::from_array(place).distance(Vec3::from_array(fine));
                     assert!(gap < 0.02 * mesh.geometry.mean_edge, "{gap} at level {level}");
                 }

@@ -32,7 +32,7 @@ impl VertexFrames {
             let turn = if forces.is_attached(v) { Default::default() } else { seen.frames.turn(v) };
             normals[i] = turn.apply(geometry.rest_normals[i]).into();
             rotations[i] = turn.matrix();
-            still[i] = turn.is_still() && geometry.positions[i] == geometry.rest_positions[i];
+            still[i] = turn.is_still() && seen.moves.positions()[i] == geometry.rest_positions[i];
         }
     }
 }

@@ -43,7 +43,7 @@ impl Frames {
             sums[v.index()] = Vec3::ZERO;
         }
         // Going through the faces in their order is quicker than going around each vertex.
-        add_up(topology, &geometry.positions, sums, |v| moves.is_turned(v));
+        add_up(topology, moves.positions(), sums, |v| moves.is_turned(v));
         for &v in &moves.vertices {
             turns[v.index()] = Turn::between(rest[v.index()], unit(sums[v.index()]));
         }

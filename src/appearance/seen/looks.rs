@@ -44,16 +44,19 @@ impl Look {
             changed.fill(false);
         }
         stains.truncate(count);
-        changed.resize(count, false);
+        changed.truncate(count);
         if all {
-            for (v, (stains, changed)) in stains.iter_mut().zip(changed).enumerate() {
+            for (v, (stains, changed)) in stains.iter_mut().zip(changed.iter_mut()).enumerate() {
                 let now = at(v);
                 *changed = *stains != now;
                 *any |= *changed;
                 *stains = now;
             }
         }
+        // A new vertex may look different from the one that it is a duplicate of.
+        *any |= stains.len() < count;
         stains.extend((stains.len()..count).map(at));
+        changed.resize(count, true);
     }
 
     /// Returns whether the stains of vertex `v` changed.

@@ -21,9 +21,16 @@ pub(super) struct Seen {
     pub looks: Looks,
     /// Whether anything moved or turned.
     pub moved: bool,
+    /// Distance up to which a vertex may lie beside where it is shown, along each axis, in metres.
+    tolerance: f32,
 }
 
 impl Seen {
+    /// Returns what has seen nothing yet, and will overlook moves of up to `tolerance` metres.
+    pub fn new(tolerance: f32) -> Self {
+        Self { tolerance, ..Self::default() }
+    }
+
     /// Compares the film, which has undergone `changes`, with what was seen. With `whole`, what was seen is void.
     pub fn follow(
         &mut self,
@@ -33,7 +40,7 @@ impl Seen {
         changes: DisplayChanges,
         whole: bool,
     ) {
-        let Self { differences, moves, frames, looks, moved } = self;
+        let Self { differences, moves, frames, looks, moved, tolerance } = self;
         if whole || changes.topology || changes.exposure {
             differences.look(mesh, forces, whole);
         } else {
@@ -42,7 +49,7 @@ impl Seen {
         *moved = false;
         if changes.moved || changes.topology || changes.exposure || differences.whole {
             let others = differences.vertices.iter().chain(&differences.separated);
-            *moved = moves.follow(mesh, differences.whole, others.copied());
+            *moved = moves.follow(mesh, differences.whole, *tolerance, others.copied());
             if *moved {
                 frames.follow(mesh, moves, differences);
             }

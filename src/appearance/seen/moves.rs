@@ -1,14 +1,16 @@
-//! Finds the vertices that have moved since the appearance was last brought up to date.
+//! Finds the vertices that have moved from where they are shown.
 
 use bevy_math::Vec3;
 
 use crate::film::{FilmMesh, VertexId};
 
 /// Vertices that moved, and those whose directions depend on them.
+///
+/// A vertex is shown where it was when it last counted as moved, so that slow moves add up.
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Moves {
-    /// Positions at the last update.
-    seen: Vec<Vec3>,
+    /// Positions at which the vertices are shown.
+    shown: Vec<Vec3>,
     /// Whether each vertex moved.
     moved: Vec<bool>,
     /// Whether each vertex is in `vertices`.
@@ -25,21 +27,30 @@ impl Moves {
         }
     }
 
-    /// Compares the film with the last update and returns whether anything moved. `others` count as moved, and with
+    /// Compares the film with how it is shown and returns whether anything moved. A vertex counts as moved when it is
+    /// further than `tolerance` metres from where it is shown, along any axis. `others` count as moved, too, and with
     /// `all` everything does.
-    pub fn follow(&mut self, mesh: &FilmMesh, all: bool, others: impl Iterator<Item = VertexId>) -> bool {
+    pub fn follow(
+        &mut self,
+        mesh: &FilmMesh,
+        all: bool,
+        tolerance: f32,
+        others: impl Iterator<Item = VertexId>,
+    ) -> bool {
         self.clear();
         let (topology, positions) = (&mesh.topology, &mesh.geometry.positions);
-        let Self { seen, moved, turned, vertices } = self;
+        let Self { shown, moved, turned, vertices } = self;
         // What is new was nowhere.
-        seen.resize(positions.len(), Vec3::NAN);
+        shown.resize(positions.len(), Vec3::NAN);
         turned.resize(positions.len(), false);
         if all {
-            seen.fill(Vec3::NAN);
+            shown.fill(Vec3::NAN);
         }
         moved.clear();
-        // Comparing all is quicker than keeping books of what moved.
-        moved.extend(positions.iter().zip(seen.iter()).map(|(a, b)| (a.x != b.x) | (a.y != b.y) | (a.z != b.z)));
+        // Comparing all is quicker than keeping books of what moved. What is not a number is far from everything.
+        let is_far = |a: f32, b: f32| !((a - b).abs() <= tolerance);
+        let far = |(a, b): (&Vec3, &Vec3)| is_far(a.x, b.x) | is_far(a.y, b.y) | is_far(a.z, b.z);
+        moved.extend(positions.iter().zip(shown.iter()).map(far));
         let mut turn = |v: VertexId| {
             if !std::mem::replace(&mut turned[v.index()], true) {
                 vertices.push(v);
@@ -54,9 +65,19 @@ impl Moves {
                     corners.iter().for_each(|&v| turn(v));
                 }
             }
-            seen.copy_from_slice(positions);
+            for ((shown, &position), &moved) in shown.iter_mut().zip(positions).zip(moved.iter()) {
+                if moved {
+                    *shown = position;
+                }
+            }
         }
         !vertices.is_empty()
+    }
+
+    /// Returns the positions at which the vertices are shown.
+    #[inline]
+    pub fn positions(&self) -> &[Vec3] {
+        &self.shown
     }
 
     /// Returns whether `v` belongs to a face with a corner that moved, or counts as moved.

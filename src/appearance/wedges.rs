@@ -1,6 +1,8 @@
 //! Merges corners at one vertex that have the same attributes into one mesh vertex, called a wedge.
 
-use crate::appearance::{corners::CornerAttributes, face_slots::FaceSlots, seen::differences::Differences};
+use std::sync::Arc;
+
+use super::{corners::CornerAttributes, face_slots::FaceSlots, seen::differences::Differences};
 use crate::film::{FilmMesh, HalfEdgeId, Topology, VertexId};
 
 /// Largest difference between attributes that count as the same. It is far too small to be seen, and larger than the
@@ -10,16 +12,20 @@ const SAME: f32 = 1e-4;
 /// Entry of a corner whose face is gone.
 const NONE: u32 = u32::MAX;
 
+/// Wedges of a film at rest.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RestWedges {
+    of: Vec<u32>,
+    count: usize,
+}
+
 /// Vertex of each corner in the front part of its slot.
 ///
 /// A vertex keeps its number while any corner stands for it, however the film tears. One that nothing stands for any
 /// more is free for the next that comes.
 #[derive(Clone, Debug, Default)]
-pub(in crate::appearance) struct Wedges {
-    /// Wedge of each corner at rest. Corners of different vertices, slots or attributes have different wedges.
-    rest: Vec<u32>,
-    /// Number of wedges at rest.
-    rest_count: usize,
+pub(super) struct Wedges {
+    rest: Arc<RestWedges>,
     /// Current vertex of each corner.
     now: Vec<u32>,
     /// Vertices of each slot.
@@ -32,7 +38,7 @@ pub(in crate::appearance) struct Wedges {
 
 /// Vertices of one slot's front part.
 #[derive(Clone, Debug, Default)]
-pub(in crate::appearance) struct SlotVertices {
+pub(super) struct SlotVertices {
     /// A corner that stands for each vertex; `NONE` where there is none.
     pub corners: Vec<HalfEdgeId>,
     /// Vertex of the film that each vertex follows.
@@ -43,35 +49,49 @@ pub(in crate::appearance) struct SlotVertices {
     free: Vec<u32>,
 }
 
-impl Wedges {
-    /// Finds the wedges of a film at rest; `mesh` may have torn since.
+impl RestWedges {
+    /// Finds the wedges of a film at rest; `mesh` may have torn since. Corners of different vertices, slots, windings or
+    /// attributes have different wedges.
     pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes, face_slots: &FaceSlots) -> Self {
         let topology = &mesh.topology;
         let mut by_vertex: Vec<HalfEdgeId> = topology.all_half_edges().collect();
         by_vertex.sort_unstable_by_key(|&h| (topology.original(topology.origin(h)), h));
-        let mut rest = vec![u32::MAX; by_vertex.len()];
+        let mut of = vec![u32::MAX; by_vertex.len()];
         let mut count = 0;
         for group in
             by_vertex.chunk_by(|&a, &b| topology.original(topology.origin(a)) == topology.original(topology.origin(b)))
         {
             for (i, &h) in group.iter().enumerate() {
-                let slot = |h: HalfEdgeId| face_slots.slot(h.face());
-                let same = group[..i].iter().find(|&&g| slot(g) == slot(h) && attributes.same(g, h));
-                rest[h.index()] = same.map_or(count, |g| rest[g.index()]);
+                let alike = |g: HalfEdgeId| face_slots.are_alike(g.face(), h.face()) && attributes.same(g, h);
+                let same = group[..i].iter().find(|&&g| alike(g));
+                of[h.index()] = same.map_or(count, |g| of[g.index()]);
                 count += u32::from(same.is_none());
             }
         }
-        Self { rest, rest_count: count as usize, ..Self::default() }
+        Self { of, count: count as usize }
     }
 
-    /// Returns the wedge at rest of the corner at the start of `h`.
-    pub fn at_rest(&self, h: HalfEdgeId) -> u32 {
-        self.rest[h.index()]
+    /// Returns the wedge of the corner at the start of `h`.
+    #[inline]
+    pub fn at(&self, h: HalfEdgeId) -> u32 {
+        self.of[h.index()]
     }
 
-    /// Returns the number of wedges at rest.
-    pub fn rest_count(&self) -> usize {
-        self.rest_count
+    /// Returns the number of wedges.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+}
+
+impl Wedges {
+    /// Returns the vertices of a film with these wedges at rest, none until they first [follow](Self::follow).
+    pub fn new(rest: Arc<RestWedges>) -> Self {
+        Self { rest, ..Self::default() }
+    }
+
+    /// Returns the wedges at rest.
+    pub fn at_rest(&self) -> &RestWedges {
+        &self.rest
     }
 
     /// Returns the vertices of a slot's front part.
@@ -129,8 +149,7 @@ impl Wedges {
             let slot = &mut slots[face_slots.slot(h.face())];
             let vertex = now[h.index()] as usize;
             if slot.film.get(vertex) != Some(&v) {
-                let wedge = rest[h.index()];
-                let same = topology.fan(v).take(i).find(|g| rest[g.index()] == wedge);
+                let same = topology.fan(v).take(i).find(|&g| rest.at(g) == rest.at(h));
                 now[h.index()] = same.map_or_else(|| slot.add(v), |g| now[g.index()]);
                 changed.push(h);
             }
@@ -172,5 +191,10 @@ impl CornerAttributes {
 
 /// Returns whether the values of corners `a` and `b` are the same; true if the prop does not have the attribute.
 fn near<const N: usize, T: Copy + Into<[f32; N]>>(values: &[T], a: usize, b: usize) -> bool {
-    values.is_empty() || values[a].into().iter().zip(values[b].into()).all(|(x, y)| (x - y).abs() <= SAME)
+    values.is_empty() || are_same(values[a], values[b])
+}
+
+/// Returns whether two values of an attribute are the same.
+pub(super) fn are_same<const N: usize, T: Into<[f32; N]>>(a: T, b: T) -> bool {
+    a.into().iter().zip(b.into()).all(|(x, y)| (x - y).abs() <= SAME)
 }
