@@ -20,8 +20,13 @@ pub struct FilmMesh {
     pub geometry: Geometry,
 }
 
+/// Coordinates nearer to zero than this count as zero. In the solver's unit they would lose bits, and products of them
+/// leave single precision; and no film is so small that it could tell.
+const LEAST_COORDINATE: f32 = 1e-30;
+
 impl FilmMesh {
-    /// Builds a film at rest. `triangles` index `positions` and are counter-clockwise seen from outside.
+    /// Builds a film at rest. `triangles` index `positions` and are counter-clockwise seen from outside. Coordinates
+    /// below 1e-30 count as zero.
     ///
     /// The triangles must form an oriented manifold; [`clean`](crate::surface::clean) makes one of any triangles.
     ///
@@ -39,7 +44,11 @@ impl FilmMesh {
     /// assert!(FilmMesh::new(vec![Vec3::ZERO, Vec3::X], &[[0, 1, 1]]).is_err());
     /// # Ok::<(), bevy_coating::film::TopologyError>(())
     /// ```
-    pub fn new(positions: Vec<Vec3>, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+    pub fn new(mut positions: Vec<Vec3>, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+        for p in &mut positions {
+            // Times zero: the sign stays, and with it every bit of a zero that was one already.
+            *p = Vec3::select(p.abs().cmplt(Vec3::splat(LEAST_COORDINATE)), *p * 0.0, *p);
+        }
         let topology = Topology::from_triangles(positions.len(), triangles)?;
         let geometry = Geometry::at_rest(&topology, positions);
         Ok(Self { topology, geometry })

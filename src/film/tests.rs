@@ -196,6 +196,15 @@ fn dihedral_runs_over_a_full_turn() {
 }
 
 #[test]
+fn coordinates_next_to_zero_are_zero() {
+    let positions = vec![Vec3::new(-0.0, 4e-44, 0.0), Vec3::new(1.0, -1e-31, 1e-29), Vec3::Y];
+    let film = FilmMesh::new(positions, &[[0, 1, 2]]).expect("a manifold");
+    let bits = film.geometry.positions.iter().map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+    let expected = [[-0.0, 0.0, 0.0], [1.0, -0.0, 1e-29], [0.0, 1.0, 0.0_f32]].map(|p| p.map(f32::to_bits));
+    assert_eq!(bits, expected);
+}
+
+#[test]
 fn bad_triangles_are_refused() {
     let p = vec![Vec3::ZERO; 5];
     let new = |t: &[[u32; 3]]| FilmMesh::new(p.clone(), t).map(|_| ()).unwrap_err();

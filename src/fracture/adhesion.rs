@@ -1,6 +1,6 @@
 //! Draws the initial adhesion of a film from Perlin noise (VC 5.1).
 
-use bevy_math::{Quat, Vec3};
+use bevy_math::{DVec3, Quat, Vec3};
 use noise::{NoiseFn, Perlin};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -17,6 +17,8 @@ const LEAST_CYCLES: f32 = 2.0;
 /// each (a test checks it over 400 seeds). It is a constant so that films are not normalised one by one: a small film
 /// may well be weak or strong everywhere.
 const PERLIN_DEVIATION: f64 = 0.3103;
+/// Distance from the origin, in cells of the noise, beyond which there is no noise. Numbers of cells fit 32 bits.
+const FARTHEST: f64 = (1 << 30) as f64;
 
 /// Returns the adhesion of a fresh film at each of `positions` (VC 5.1), as forces in units of the initial contraction.
 ///
@@ -61,13 +63,20 @@ pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, grain: Op
             let q = (rotation * ((p - min) * scale)).as_dvec3() + shift.as_dvec3();
             let (mut sum, mut gain, mut frequency) = (0.0, 1.0, 1.0);
             for _ in 0..settings.octaves {
-                sum += gain * perlin.get((q * frequency).to_array());
+                sum += gain * noise_at(&perlin, q * frequency);
                 gain *= GAIN;
                 frequency *= LACUNARITY;
             }
             (settings.mean + (amplitude * sum) as f32).max(0.0)
         })
         .collect()
+}
+
+/// Returns the noise at `place`; 0 where it is so far out, in cells, that no number says where in its cell it lies, and
+/// where it is no place: settings out of range ask for that. The noise itself has an answer in neither case.
+fn noise_at(perlin: &Perlin, place: DVec3) -> f64 {
+    let place = place.to_array();
+    if place.iter().all(|x| x.abs() < FARTHEST) { perlin.get(place) } else { 0.0 }
 }
 
 /// Returns the standard deviation of the sum of `octaves` octaves. At arbitrary places the octaves of Perlin noise are
@@ -110,6 +119,20 @@ mod tests {
 
     fn flat(n: u32) -> Vec<Vec3> {
         (0..n * n).map(|i| Vec3::new((i % n) as f32, (i / n) as f32, 0.0) / (n - 1) as f32).collect()
+    }
+
+    #[test]
+    fn no_frequency_and_no_place_is_too_large() {
+        for cycles in [f32::INFINITY, f32::NAN, -1e38, 1e20, 0.0] {
+            for size in [1.0, 1e-38, 1e38] {
+                let positions: Vec<Vec3> = flat(3).into_iter().map(|p| p * size).collect();
+                let settings =
+                    AdhesionSettings { frequency: cycles, wavelength: cycles, ..AdhesionSettings::default() };
+                for grain in [None, Some(Grain { length: size })] {
+                    assert_eq!(adhesion_field(&positions, &settings, grain, 7).len(), 9, "{cycles} on {size} m");
+                }
+            }
+        }
     }
 
     #[test]
