@@ -43,6 +43,7 @@ impl Keyframes {
     }
 
     /// Returns the step of the last keyframe.
+    #[cfg(feature = "plugin")]
     pub fn last_step(&self) -> u64 {
         self.list.last().map_or(0, |last| last.step)
     }

@@ -35,7 +35,8 @@ pub enum FilmResolution {
     /// as long as there are not too many triangles. The default.
     Grain {
         /// Mean edge over the grain: 0.1 to 2, default 0.7. Cracks run along edges, so they are rounder on shorter
-        /// ones, and all of it costs more.
+        /// ones, and all of it costs more. Props so small that their films would have fewer than 1,000 triangles
+        /// together get shorter edges, down to 0.1 grains, to keep their shape.
         share: f32,
         /// Highest number of triangles of all films of the coating together, at least 4, default 16,000. Where they
         /// would need more, they share this number by area, and their edges are longer.

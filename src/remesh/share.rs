@@ -1,12 +1,16 @@
 //! Finds the target of each film of a coating, and shares triangles between them.
 
 use super::{
-    resolution::FilmResolution,
+    resolution::{FilmResolution, GRAIN_SHARES},
     target::{FilmTarget, count_of_edge},
 };
 
 /// Fewest triangles of a film, however small its share of the surface is.
 pub const LEAST_TRIANGLES: u32 = 12;
+
+/// Fewest triangles of all films of a coating together whose edges follow the grain: small props need them to keep
+/// their shape.
+pub const LEAST_GRAIN_TRIANGLES: u32 = 1000;
 
 /// Returns the triangles of each film, out of `budget` triangles that are shared in proportion to `areas`. Films whose
 /// share would be less than [`LEAST_TRIANGLES`] get that many; the others share the rest. One film alone gets the whole
@@ -48,7 +52,8 @@ pub fn share_triangles(budget: u32, areas: &[f64]) -> Vec<u32> {
 /// in metres, and the area of each film, in square metres. Areas that are negative or NaN count as 0.
 ///
 /// [`FilmResolution::Grain`] becomes an edge length, and where the films would have too many triangles together, each
-/// one's share of them. Films have at least [`LEAST_TRIANGLES`] triangles in either case. Resolutions out of their
+/// one's share of them. Where they would have fewer than [`LEAST_GRAIN_TRIANGLES`], edges are shorter, down to the least
+/// share of the grain that may be asked for. Films have at least [`LEAST_TRIANGLES`] triangles in either case. Resolutions out of their
 /// ranges become targets that [`build_film`](super::build_film) refuses.
 ///
 /// ```
@@ -56,7 +61,7 @@ pub fn share_triangles(budget: u32, areas: &[f64]) -> Vec<u32> {
 ///
 /// let resolution = FilmResolution::Grain { share: 0.5, max_triangles: 4000 };
 /// // A square metre in edges of 5 cm takes 924 triangles, and in edges of 2 cm 5,774.
-/// assert_eq!(film_targets(resolution, 0.1, &[1.0]), [FilmTarget::EdgeLength(0.05)]);
+/// assert_eq!(film_targets(resolution, 0.1, &[2.0]), [FilmTarget::EdgeLength(0.05)]);
 /// assert_eq!(film_targets(resolution, 0.04, &[0.75, 0.25]), [3000, 1000].map(FilmTarget::Triangles));
 /// ```
 pub fn film_targets(resolution: FilmResolution, grain: f32, areas: &[f64]) -> Vec<FilmTarget> {
@@ -67,8 +72,8 @@ pub fn film_targets(resolution: FilmResolution, grain: f32, areas: &[f64]) -> Ve
     };
     match resolution {
         FilmResolution::Grain { share, max_triangles } => {
-            let edge = share * grain;
             let least = f64::from(LEAST_TRIANGLES);
+            let edge = finer_edge(share, grain, max_triangles.min(LEAST_GRAIN_TRIANGLES), areas);
             // Neither a negative area nor NaN is above the least.
             let count = |&area: &f64| count_of_edge(area, edge).max(least);
             if areas.iter().map(count).sum::<f64>() > f64::from(max_triangles) || max_triangles < 4 {
@@ -85,11 +90,23 @@ pub fn film_targets(resolution: FilmResolution, grain: f32, areas: &[f64]) -> Ve
     }
 }
 
+/// Returns an edge of `share` grains, or a shorter one with which all of `areas` take `least` triangles.
+fn finer_edge(share: f32, grain: f32, least: u32, areas: &[f64]) -> f32 {
+    let edge = share * grain;
+    let area: f64 = areas.iter().filter(|&&area| area > 0.0).sum();
+    let count = count_of_edge(area, edge);
+    if !(count > 0.0 && count < f64::from(least)) {
+        return edge;
+    }
+    let shorter = edge * (count / f64::from(least)).sqrt() as f32;
+    shorter.max(GRAIN_SHARES.start() * grain).min(edge)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const GRAIN: FilmResolution = FilmResolution::Grain { share: 0.5, max_triangles: 1000 };
+    const GRAIN: FilmResolution = FilmResolution::Grain { share: 0.5, max_triangles: 2000 };
 
     #[test]
     fn the_budget_is_shared_by_area_with_a_minimum() {
@@ -114,15 +131,31 @@ mod tests {
     #[test]
     fn the_edge_follows_the_grain_up_to_the_budget() {
         // 0.5 x 0.1 m: 924 triangles a square metre.
-        assert_eq!(film_targets(GRAIN, 0.1, &[0.5, 0.5]), [FilmTarget::EdgeLength(0.05); 2]);
-        assert_eq!(film_targets(GRAIN, 0.1, &[0.6, 0.6]), [FilmTarget::Triangles(500); 2]);
-        assert_eq!(film_targets(GRAIN, 0.01, &[7.0]), [FilmTarget::Triangles(1000)]);
+        assert_eq!(film_targets(GRAIN, 0.1, &[1.0, 0.5]), [FilmTarget::EdgeLength(0.05); 2]);
+        assert_eq!(film_targets(GRAIN, 0.1, &[1.2, 1.2]), [FilmTarget::Triangles(1000); 2]);
+        assert_eq!(film_targets(GRAIN, 0.01, &[7.0]), [FilmTarget::Triangles(2000)]);
         assert_eq!(film_targets(GRAIN, 0.1, &[]), []);
     }
 
     #[test]
+    fn small_props_have_shorter_edges() {
+        // A bottle of a hundredth of a square metre, in edges of 5 cm, would be a dozen triangles.
+        let [FilmTarget::EdgeLength(edge)] = film_targets(FilmResolution::default(), 0.04, &[0.05])[..] else {
+            panic!("an edge length");
+        };
+        let count = count_of_edge(0.05, edge);
+        assert!((count - 1000.0).abs() < 1.0 && edge < 0.028, "{count} of {edge} m");
+        // A tenth of the grain is the least.
+        let targets = film_targets(FilmResolution::default(), 0.04, &[0.003]);
+        assert_eq!(targets, [FilmTarget::EdgeLength(0.004)]);
+        // Whoever asks for fewer gets fewer.
+        let few = FilmResolution::Grain { share: 0.7, max_triangles: 200 };
+        assert_eq!(film_targets(few, 0.04, &[0.05]), [FilmTarget::EdgeLength(edge * 5.0_f32.sqrt())]);
+    }
+
+    #[test]
     fn small_films_have_the_least_number_of_triangles() {
-        let targets = film_targets(GRAIN, 0.1, &[0.5, 1e-4, f64::NAN, -1.0]);
+        let targets = film_targets(GRAIN, 0.1, &[1.5, 1e-4, f64::NAN, -1.0]);
         let least = FilmTarget::Triangles(LEAST_TRIANGLES);
         assert_eq!(targets, [FilmTarget::EdgeLength(0.05), least, least, least]);
         // A hundred bolts exceed the budget by themselves.
