@@ -25,7 +25,7 @@ mod view;
 
 use std::sync::Arc;
 
-use super::{METAL_DEPTH, face_slots::FaceSlots, part_changes::PartChanges, seen::Seen};
+use super::{METAL_DEPTH, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges, seen::Seen};
 use crate::{film::FilmMesh, fracture::FilmForces};
 use backs::FineBacks;
 pub(super) use base::Base;
@@ -79,6 +79,8 @@ impl FineSurface {
         if seen.differences.whole {
             fronts.forget();
             backs.forget();
+            // How many vertices these have was not known before.
+            backs.parts.iter_mut().chain(&mut metal.parts).for_each(MeshPart::shrink);
         }
         let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
         changes.for_each(PartChanges::finish);
