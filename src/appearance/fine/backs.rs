@@ -148,8 +148,8 @@ impl FineBacks {
         }
     }
 
-    /// Adds vertices behind the edge of `h` if it has its own and a face at it has a back, and removes those that should
-    /// not be there.
+    /// Adds vertices behind the edge of `h` if it has its own and a face at it has a back, and removes those that
+    /// should not be there.
     fn renew_edge(&mut self, view: &View, forces: &FilmForces, fronts: &FineFronts, h: HalfEdgeId) {
         let (topology, slot) = (view.topology(), view.face_slots.slot(h.face()));
         let has_back = |f: FaceId| is_wanted(view, forces, f);
