@@ -102,7 +102,7 @@ fn props_keep_to_their_memory() {
             }
         }
         let (film, of_film) = held(|| film.clone());
-        for (level, most) in [(0, 5.0), (2, if matches!(state, State::Loose) { 14.0 } else { 12.0 })] {
+        for (level, most) in [(0, 5.0), (2, if matches!(state, State::Loose) { 14.0 } else { 12.5 })] {
             let (shown, all) = held(|| shown(&piece, &film, level));
             let parts = [shown.front(0), shown.backs(0), shown.metal(0)].map(arrays);
             let [front, backs, metal] = parts;
