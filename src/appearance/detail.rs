@@ -47,9 +47,9 @@ pub struct Detail {
     /// Thickness of the paint, in grains: 0 to 1, default 0.03, which is 0.8 mm at the default grain.
     pub thickness: f32,
     /// Largest distance along each axis at which a vertex of the film may be shown beside where it is, in mean edges of
-    /// the film: 0 to 0.1, default 0. Paint that curls slowly is then shown again every few steps instead of after each:
-    /// at 0.01, which few images can tell, half as much or less is shown again. Small moves add up, so that paint never
-    /// lies further beside. At 0 every move is shown.
+    /// the film: 0 to 0.1, default 0. Paint that curls slowly is then shown again every few steps instead of after
+    /// each: at 0.01, which few images can tell, half as much or less is shown again. Small moves add up, so that paint
+    /// never lies further beside. At 0 every move is shown.
     pub tolerance: f32,
 }
 

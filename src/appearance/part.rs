@@ -126,6 +126,20 @@ impl MeshPart {
         self.indices.reserve_exact(indices);
     }
 
+    /// Gives back the memory that the part does not need.
+    pub(super) fn shrink(&mut self) {
+        self.positions.shrink_to_fit();
+        self.normals.shrink_to_fit();
+        self.uvs.shrink_to_fit();
+        self.uvs_1.shrink_to_fit();
+        self.tangents.shrink_to_fit();
+        self.colors.shrink_to_fit();
+        self.stains.shrink_to_fit();
+        self.rest.shrink_to_fit();
+        self.rest_normals.shrink_to_fit();
+        self.indices.shrink_to_fit();
+    }
+
     /// Appends so many indices, and returns the first.
     pub(super) fn add_indices(&mut self, count: usize) -> usize {
         let first = self.indices.len();

@@ -50,8 +50,8 @@ pub(super) struct SlotVertices {
 }
 
 impl RestWedges {
-    /// Finds the wedges of a film at rest; `mesh` may have torn since. Corners of different vertices, slots, windings or
-    /// attributes have different wedges.
+    /// Finds the wedges of a film at rest; `mesh` may have torn since. Corners of different vertices, slots, windings
+    /// or attributes have different wedges.
     pub fn new(mesh: &FilmMesh, attributes: &CornerAttributes, face_slots: &FaceSlots) -> Self {
         let topology = &mesh.topology;
         let mut by_vertex: Vec<HalfEdgeId> = topology.all_half_edges().collect();

@@ -119,9 +119,9 @@ impl FineBacks {
         self.free.iter_mut().for_each(Vec::clear);
         self.runs.clear(topology.face_count(), slots);
         self.rims.clear(topology, slots);
-        self.touched.extend(topology.live_faces());
+        self.touched.extend(topology.live_faces().filter(|&f| is_wanted(view, forces, f)));
         let mut counts = vec![0; slots];
-        for &f in self.touched.iter().filter(|&&f| is_wanted(view, forces, f)) {
+        for &f in &self.touched {
             counts[view.face_slots.slot(f)] += 1;
         }
         for (part, count) in self.parts.iter_mut().zip(counts) {
@@ -148,8 +148,8 @@ impl FineBacks {
         }
     }
 
-    /// Adds vertices behind the edge of `h` if it has its own and a face at it has a back, and removes those that should
-    /// not be there.
+    /// Adds vertices behind the edge of `h` if it has its own and a face at it has a back, and removes those that
+    /// should not be there.
     fn renew_edge(&mut self, view: &View, forces: &FilmForces, fronts: &FineFronts, h: HalfEdgeId) {
         let (topology, slot) = (view.topology(), view.face_slots.slot(h.face()));
         let has_back = |f: FaceId| is_wanted(view, forces, f);

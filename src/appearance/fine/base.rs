@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_math::{Vec2, Vec3, Vec4, VectorSpace};
 
 use super::layout::{Layout, Role};
 use crate::{
@@ -10,6 +10,7 @@ use crate::{
         corners::{CornerAttributes, sample, sample_at},
         face_slots::FaceSlots,
         part::{MeshPart, set},
+        turn::unit,
         wedges::{RestWedges, are_same},
     },
     film::{FaceId, FilmMesh, HalfEdgeId, Topology},
@@ -80,7 +81,7 @@ impl Base {
         let mut normals = sample(&surface.normals, &own);
         normals.resize(of.len(), Vec3::ZERO);
         for (normal, &i) in normals.iter_mut().zip(&of) {
-            *normal = normal.normalize_or_zero();
+            *normal = unit(*normal);
             // Where the prop has no normals they are those at the film's corners, interpolated.
             if *normal == Vec3::ZERO {
                 let b = base.layout.grid.points()[i % points];
@@ -309,13 +310,15 @@ fn joined(
 
 /// Returns whether the prop has the same attributes at two sites.
 fn has_same(surface: &Surface, a: &SurfaceSite, b: &SurfaceSite) -> bool {
+    /// Returns whether one attribute is the same.
+    fn same<const N: usize, T>(values: &[T], a: &SurfaceSite, b: &SurfaceSite) -> bool
+    where
+        T: Into<[f32; N]> + VectorSpace<Scalar = f32> + Copy,
+    {
+        values.is_empty() || are_same(sample_at(values, a), sample_at(values, b))
+    }
     let Surface { normals, uvs, uvs_1, tangents, colors, .. } = surface;
-    a == b
-        || are_same(sample_at(normals, a), sample_at(normals, b))
-            && are_same(sample_at(uvs, a), sample_at(uvs, b))
-            && are_same(sample_at(uvs_1, a), sample_at(uvs_1, b))
-            && are_same(sample_at(tangents, a), sample_at(tangents, b))
-            && are_same(sample_at(colors, a), sample_at(colors, b))
+    a == b || same(normals, a, b) && same(uvs, a, b) && same(uvs_1, a, b) && same(tangents, a, b) && same(colors, a, b)
 }
 
 /// Returns the weighted sum of three values; `None` where there are none.

@@ -178,8 +178,8 @@ fn place(
     }
 }
 
-/// Returns the position of what was at `rest`, lifted so far along `up` that it does not lie below: patches between film
-/// that has moved and film that has not may dip through the metal.
+/// Returns the position of what was at `rest`, lifted so far along `up` that it does not lie below: patches between
+/// film that has moved and film that has not may dip through the metal.
 #[inline(always)]
 fn lifted(position: Vec3A, rest: Vec3A, up: Vec3A) -> Vec3A {
     if (position - rest).dot(up) < 0.0 { lift(position, rest, up) } else { position }

@@ -1,9 +1,10 @@
 //! The film shown finer than it is simulated (VC 8, fig. 18): every face is a grid of small triangles on the prop's own
 //! surface, bent with the film.
 //!
-//! Faces share the vertices along bound edges and at corners; a tear gives one side its own and renumbers nothing else. At
-//! rest every vertex lies on the prop's surface. A face that has moved is a [curved patch](patch) over its corners, and the height of the prop's surface
-//! over the patch at rest is turned with it. Vertices on an edge depend on that edge alone, so bound neighbours meet.
+//! Faces share the vertices along bound edges and at corners; a tear gives one side its own and renumbers nothing else.
+//! At rest every vertex lies on the prop's surface. A face that has moved is a [curved patch](patch) over its corners,
+//! and the height of the prop's surface over the patch at rest is turned with it. Vertices on an edge depend on that
+//! edge alone, so bound neighbours meet.
 
 mod backs;
 mod base;
@@ -25,7 +26,7 @@ mod view;
 
 use std::sync::Arc;
 
-use super::{METAL_DEPTH, face_slots::FaceSlots, part_changes::PartChanges, seen::Seen};
+use super::{METAL_DEPTH, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges, seen::Seen};
 use crate::{film::FilmMesh, fracture::FilmForces};
 use backs::FineBacks;
 pub(super) use base::Base;
@@ -47,8 +48,8 @@ pub(super) struct FineSurface {
 }
 
 impl FineSurface {
-    /// Returns the parts of a film with `slots` slots, without triangles until the first [`update`](Self::update). Chips
-    /// have an amplitude of up to `chips` metres, and the paint is `thickness` metres thick.
+    /// Returns the parts of a film with `slots` slots, without triangles until the first [`update`](Self::update).
+    /// Chips have an amplitude of up to `chips` metres, and the paint is `thickness` metres thick.
     pub fn new(mesh: &FilmMesh, base: Arc<Base>, slots: usize, chips: f32, thickness: f32) -> Self {
         Self {
             frames: VertexFrames::default(),
@@ -79,6 +80,8 @@ impl FineSurface {
         if seen.differences.whole {
             fronts.forget();
             backs.forget();
+            // How many vertices these have was not known before.
+            backs.parts.iter_mut().chain(&mut metal.parts).for_each(MeshPart::shrink);
         }
         let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
         changes.for_each(PartChanges::finish);

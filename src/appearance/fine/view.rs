@@ -1,4 +1,4 @@
-//! What all parts of a fine surface look at.
+//! Holds what all parts of a fine surface look at.
 
 use bevy_math::{Mat3A, Vec3, Vec3A};
 
