@@ -63,8 +63,8 @@ pub enum SnapshotError {
     },
     /// Nothing was saved of the film.
     #[error(
-        "nothing was saved of a film at `{path}` below its coating: name entities as they were named when the films were \
-         saved"
+        "nothing was saved of a film at `{path}` below its coating: name entities as they were named when the films \
+         were saved"
     )]
     NoFilm {
         /// Names of the entities that lead to the film.
