@@ -69,7 +69,7 @@ fn measure(input: &str, tries: usize) {
         (0..5).for_each(|_| film.restore(&snapshot).expect("the same film"));
         let restoring = begin.elapsed().as_secs_f64() * 1e3 / 5.0;
         println!(
-            "  steps {first:4} to {end:4}: median {:5.1} ms, p95 {:5.1} ms; a snapshot is restored in {restoring:.1} ms",
+            "  steps {first:4} to {end:4}: median {:5.1} ms, p95 {:5.1} ms; a snapshot: {restoring:.1} ms",
             times[times.len() / 2],
             times[times.len() * 95 / 100],
         );

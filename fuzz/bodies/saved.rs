@@ -37,7 +37,7 @@ fn history() -> &'static History {
 /// Returns what `input` makes of `whole`.
 fn changed(whole: &[u8], input: &mut Input) -> Vec<u8> {
     match input.byte() % 3 {
-        0 => return input.0.to_vec(),
+        0 => input.0.to_vec(),
         1 => rewrapped(whole, input.0),
         _ => {
             let mut content = whole[HEADER..whole.len() - CHECKSUM].to_vec();

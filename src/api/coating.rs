@@ -347,7 +347,7 @@ impl FilmKey {
     }
 
     /// Returns everything that keys are compared by.
-    fn bits(&self) -> (Option<u64>, FilmResolution, u32, [u64; 3], Option<[u32; 10]>, u32, [u32; 3]) {
+    fn bits(&self) -> (Option<u64>, FilmResolution, u32, [u64; 3], Option<[u32; 10]>, u32, [u32; 4]) {
         let (resolution, number) = match self.resolution {
             FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
             FilmResolution::Grain { share, max_triangles } => {
@@ -360,8 +360,8 @@ impl FilmKey {
             [wind.x, wind.y, wind.z, gusts, rain.x, rain.y, rain.z, sun.x, sun.y, sun.z].map(f32::to_bits)
         });
         // How many pixels are enough may change at any time.
-        let Detail { level, chips, thickness, .. } = self.detail;
-        let detail = [level, chips.to_bits(), thickness.to_bits()];
+        let Detail { level, chips, thickness, tolerance, .. } = self.detail;
+        let detail = [level, chips.to_bits(), thickness.to_bits(), tolerance.to_bits()];
         let painted = self.painted.map_or([0, 0], |date| [1, date.to_bits()]);
         let ages = [self.start_age.to_bits(), painted[0], painted[1]];
         (self.seed, resolution, number, ages, weather, self.steps_per_age, detail)

@@ -57,8 +57,8 @@ pub struct CoatingPart;
 
 /// Handle of the prop's own mesh, on a mesh entity that shows a film.
 ///
-/// When the coating is removed the entity gets this mesh back. It is saved with a scene, so that a prop which is loaded
-/// from one is coated anew, from its own mesh, and not from the one that showed its film.
+/// The entity gets this mesh back when the coating is removed. It is saved with scenes, so that a prop of a saved scene
+/// gets its own mesh too, and not the one that showed its film.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct CoatedMesh(pub Handle<Mesh>);

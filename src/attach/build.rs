@@ -73,7 +73,8 @@ pub(crate) struct FilmReadiness {
 }
 
 /// Builds a film, ages it to its start age or puts its saved state back, and writes its display meshes. Whatever takes
-/// long [rests](Turn) in between, so that one heavy build does not hold up all others, and ends where nobody wants it any more.
+/// long [rests](Turn) in between, so that one heavy build does not hold up all others, and ends where nobody wants it
+/// any more.
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.

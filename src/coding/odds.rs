@@ -33,8 +33,8 @@ impl Odds {
     }
 }
 
-/// Returns odds that have learned. Both ways are computed and one is taken: nobody can foretell which, so a branch would
-/// cost more.
+/// Returns odds that have learned. Both ways are computed and one is taken: nobody can foretell which, so that a
+/// branch would cost more.
 #[inline]
 fn learned<const SHIFT: u32>(odds: u16, bit: bool) -> u16 {
     let (down, up) = (odds - (odds >> SHIFT), odds + (((1 << PRECISION) - odds) >> SHIFT));

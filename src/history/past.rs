@@ -1,4 +1,4 @@
-//! What is known of a film's past, without the film itself.
+//! Keeps what is known of a film's past, without the film itself.
 
 use std::sync::Arc;
 

@@ -116,7 +116,7 @@ fn keyframes_are_thinned_evenly() {
 #[test]
 fn a_long_log_moves_the_beginning() {
     let mut history = history(200);
-    history.set_keyframe_bytes(12_000);
+    history.set_keyframe_bytes(20_000);
     let mut digests = vec![history.film().digest()];
     for step in 0..400_u32 {
         let tilt = bevy_math::ops::sin(step as f32 * 0.1 + 0.1);

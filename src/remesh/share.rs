@@ -52,9 +52,9 @@ pub fn share_triangles(budget: u32, areas: &[f64]) -> Vec<u32> {
 /// in metres, and the area of each film, in square metres. Areas that are negative or NaN count as 0.
 ///
 /// [`FilmResolution::Grain`] becomes an edge length, and where the films would have too many triangles together, each
-/// one's share of them. Where they would have fewer than [`LEAST_GRAIN_TRIANGLES`], edges are shorter, down to the least
-/// share of the grain that may be asked for. Films have at least [`LEAST_TRIANGLES`] triangles in either case. Resolutions out of their
-/// ranges become targets that [`build_film`](super::build_film) refuses.
+/// one's share of them. Where they would have fewer than [`LEAST_GRAIN_TRIANGLES`], edges are shorter, down to the
+/// least share of the grain that may be asked for. Films have at least [`LEAST_TRIANGLES`] triangles in either case.
+/// Resolutions out of their ranges become targets that [`build_film`](super::build_film) refuses.
 ///
 /// ```
 /// use bevy_coating::remesh::{FilmResolution, FilmTarget, film_targets};

@@ -62,10 +62,7 @@ pub enum SnapshotError {
         part: &'static str,
     },
     /// Nothing was saved of the film.
-    #[error(
-        "nothing was saved of a film at `{path}` below its coating: name entities as they were named when the films were \
-         saved"
-    )]
+    #[error("nothing was saved of a film at `{path}` below its coating: name entities as they were when it was saved")]
     NoFilm {
         /// Names of the entities that lead to the film.
         path: String,
