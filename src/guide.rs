@@ -8,6 +8,7 @@
 //! | [`baking`] | ageing model files without an engine |
 //! | [`saving`] | saving and restoring films, going back in time, props that come late |
 //! | [`performance`] | measured times, quality levels |
+//! | [`bad_input`] | what happens to input that is wrong, and the test of each kind |
 //! | [`limits`] | which meshes are taken, and what is not simulated |
 //! | [`how_it_works`] | the stages, and where each comes from in the paper |
 //!
@@ -24,6 +25,7 @@ macro_rules! links {
 [saving]: crate::guide::saving
 [performance]: crate::guide::performance
 [limits]: crate::guide::limits
+[bad input]: crate::guide::bad_input
 [how it works]: crate::guide::how_it_works
 "
     };
@@ -55,6 +57,10 @@ pub mod saving {}
 #[doc = links!()]
 #[doc = include_str!("../docs/performance.md")]
 pub mod performance {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/bad_input.md")]
+pub mod bad_input {}
 
 #[doc = links!()]
 #[doc = include_str!("../docs/limits.md")]

@@ -105,3 +105,21 @@ fn tables_are_read() {
         BTreeSet::from(["x", "z"])
     );
 }
+
+#[test]
+fn every_kind_of_bad_input_has_a_test() {
+    let (page, mut sources) = (read("docs/bad_input.md"), crate::sources("src"));
+    sources.extend(crate::sources("tests"));
+    let rows = table(&page, "test");
+    let is_test = |name: &str| {
+        let head = format!("fn {name}()");
+        sources.iter().any(|(_, source)| source.contains(&head))
+    };
+    let unknown = |row: &Vec<&str>| {
+        let mut names = row[2].split('`').skip(1).step_by(2);
+        names.clone().next().is_none() || names.any(|name| name != "fuzz" && !is_test(name))
+    };
+    let found: Vec<String> = rows.iter().skip(1).filter(|row| unknown(row)).map(|row| row.join(" | ")).collect();
+    assert_none(&found, "docs/bad_input.md names tests that there are, in each row");
+    assert!(rows.len() > 20, "the table was not found");
+}
