@@ -10,7 +10,7 @@ pub const LEAST_TRIANGLES: u32 = 12;
 
 /// Fewest triangles of all films of a coating together whose edges follow the grain: small props need them to keep
 /// their shape.
-pub const LEAST_GRAIN_TRIANGLES: u32 = 1000;
+const LEAST_GRAIN_TRIANGLES: u32 = 1000;
 
 /// Returns the triangles of each film, out of `budget` triangles that are shared in proportion to `areas`. Films whose
 /// share would be less than [`LEAST_TRIANGLES`] get that many; the others share the rest. One film alone gets the whole
@@ -52,7 +52,7 @@ pub fn share_triangles(budget: u32, areas: &[f64]) -> Vec<u32> {
 /// in metres, and the area of each film, in square metres. Areas that are negative or NaN count as 0.
 ///
 /// [`FilmResolution::Grain`] becomes an edge length, and where the films would have too many triangles together, each
-/// one's share of them. Where they would have fewer than [`LEAST_GRAIN_TRIANGLES`], edges are shorter, down to the
+/// one's share of them. Where they would have fewer than 1,000 together, edges are shorter, down to the
 /// least share of the grain that may be asked for. Films have at least [`LEAST_TRIANGLES`] triangles in either case.
 /// Resolutions out of their ranges become targets that [`build_film`](super::build_film) refuses.
 ///
