@@ -45,10 +45,10 @@ fn a_film_has_the_edges_that_its_settings_ask_for() {
         let mut assets = app.world_mut().resource_mut::<Assets<CoatingSettings>>();
         assets.insert(&handle, by_grain(grain)).expect("a reserved handle");
     };
-    insert(&mut app, 0.1);
+    insert(&mut app, 0.06);
     wait_for_films(&mut app, 1);
     let edge = mean_edge(&app, plate);
-    assert!((0.063..0.077).contains(&edge), "{edge}");
+    assert!((0.038..0.046).contains(&edge), "{edge}");
     assert_eq!(coarse(&mut app), []);
     // Another grain changes the rules, not the triangles.
     insert(&mut app, 0.2);
@@ -81,11 +81,11 @@ fn a_film_that_must_be_coarser_than_its_grain_says_so_once() {
 #[test]
 fn a_film_that_was_asked_for_by_its_edges_follows_the_grain_afterwards() {
     let mut app = app();
-    let coating = Coating::new(by_grain(0.1)).with_resolution(FilmResolution::EdgeLength(0.2)).with_steps_per_age(100);
+    let coating = Coating::new(by_grain(0.06)).with_resolution(FilmResolution::EdgeLength(0.2)).with_steps_per_age(100);
     let plate = spawn_plate(&mut app, 2, coating);
     wait_for_films(&mut app, 1);
     app.world_mut().get_mut::<Coating>(plate).expect("a coating").resolution = FilmResolution::default();
-    update_until(&mut app, |app| (0.063..0.077).contains(&mean_edge(app, plate)));
+    update_until(&mut app, |app| (0.038..0.046).contains(&mean_edge(app, plate)));
 }
 
 #[test]
