@@ -84,7 +84,7 @@ impl CoatingCalendar {
     }
 
     /// Returns the environments of a film at `transform` since `date`, with the age that passed in each. Of what lies
-    /// before the first weather that is known, `before` is taken.
+    /// before the first weather that is known, `before` is taken. Since a date that is none, nothing has passed.
     pub(crate) fn since(
         &self,
         date: f64,
@@ -92,6 +92,9 @@ impl CoatingCalendar {
         gravity: CoatingGravity,
         transform: &GlobalTransform,
     ) -> Vec<(f64, Environment)> {
+        if !date.is_finite() {
+            return Vec::new();
+        }
         let first = self.stretches.first().map_or(self.date, |stretch| stretch.begin);
         let unknown = Stretch { begin: f64::NEG_INFINITY, weather: before, gravity };
         let begins = self.stretches.iter().map(|stretch| stretch.begin).chain([self.date]);
