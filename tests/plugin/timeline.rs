@@ -18,8 +18,10 @@ fn seek(app: &mut App, film: Entity, age: f64) {
     messages::<AgeReached>(app);
     app.world_mut().get_mut::<FilmClock>(film).expect("a film").seek(age);
     update_until(app, |app| {
+        // A way that was under way to another age may end first.
         let reached = messages::<AgeReached>(app);
-        reached.iter().any(|reached| reached.entity == film)
+        let is_there = app.world().get::<FilmClock>(film).is_some_and(|clock| clock.sought().is_none());
+        is_there && reached.iter().any(|reached| reached.entity == film)
     });
 }
 
