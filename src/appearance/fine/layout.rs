@@ -5,7 +5,7 @@ use bevy_math::{Vec3, Vec3A};
 use super::patch::weights;
 use crate::film::FaceGrid;
 
-/// What a point of the grid belongs to.
+/// Part of a face that a point of its grid belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// The corner with this number.

@@ -10,7 +10,7 @@ use crate::{
 /// Number of entries that are compared at once.
 const CHUNK: usize = 64;
 
-/// What was seen, and what has become of it.
+/// Film as it was seen, and how it differs from that now.
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Differences {
     /// Start vertex of each half-edge.
