@@ -231,6 +231,6 @@ fn begin(world: &World, commands: &mut Commands, root: Entity, candidate: Candid
     let FilmInputs { key, scale, metres_per_unit, date, .. } = order.inputs;
     let seed = order.seed;
     let task = AsyncComputeTaskPool::get().spawn(build_film(order));
-    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area, date };
+    let build = FilmBuild { task, root, slots, key, seed, scale, metres_per_unit, area, date, stale: false };
     commands.entity(film).try_insert((CoatedBy(root), build));
 }

@@ -46,6 +46,8 @@ pub(crate) struct FilmBuild {
     pub area: f64,
     /// Date for which the film is built.
     pub date: f64,
+    /// Whether a mesh asset has changed since the build began, so that a fault may be mended already.
+    pub stale: bool,
 }
 
 /// Inputs of a build.

@@ -68,6 +68,11 @@ pub(super) fn finish_builds(
             continue;
         }
         match result {
+            // What is wrong may have been mended meanwhile: it is begun again, by itself or as a mesh that changed.
+            Err(_) if build.stale && old.is_some() => {
+                commands.entity(film).try_remove::<FilmBuild>();
+            }
+            Err(_) if build.stale => detach_film(&mut commands, film),
             Err(fault) if old.is_some() => keep_old(&mut commands, film, build.root, build.key, fault),
             Err(fault) => {
                 let (root, meshes) = (build.root, std::mem::take(&mut build.slots));

@@ -12,7 +12,7 @@ use bevy::{
     mesh::Mesh,
 };
 
-use super::suspects::suspects_of;
+use super::{build::FilmBuild, suspects::suspects_of};
 use crate::{
     api::{
         coating::{Coating, SettingsSource},
@@ -22,26 +22,39 @@ use crate::{
 };
 
 /// Marks refused meshes, unless they are being built again, as awaiting when their mesh, material, settings,
-/// components, scale or coating changed. All meshes that would have shared a film are looked at together.
+/// components, scale or coating changed. All meshes that would have shared a film are looked at together. Builds whose
+/// meshes changed learn of it.
 pub(super) fn recheck_refused(
     world: &World,
     mut commands: Commands,
     refused: Query<(Entity, &FilmRefused), (Without<AwaitingFilm>, Without<FilmSlot>)>,
     marks: Query<&FilmRefused>,
     left_alone: Query<(Entity, &LeftAlone), Without<AwaitingFilm>>,
+    builds: Query<(Entity, &FilmBuild)>,
+    slots: Query<&FilmSlot>,
     mut meshes: MessageReader<AssetEvent<Mesh>>,
     mut settings: MessageReader<AssetEvent<CoatingSettings>>,
     #[cfg(feature = "render")] mut materials: Option<MessageReader<AssetEvent<bevy::pbr::StandardMaterial>>>,
     mut again: Local<Vec<Entity>>,
 ) {
+    let meshes: Vec<AssetId<Mesh>> = meshes.read().filter_map(edited).collect();
+    if !meshes.is_empty() {
+        // A build that ends with a fault has not seen them.
+        let is_edited = |&slot: &Entity| slots.get(slot).is_ok_and(|slot| meshes.contains(&slot.original.id()));
+        for (film, _) in builds.iter().filter(|(_, build)| build.slots.iter().any(is_edited)) {
+            commands.queue(move |world: &mut World| {
+                if let Some(mut build) = world.get_mut::<FilmBuild>(film) {
+                    build.stale = true;
+                }
+            });
+        }
+    }
     if refused.is_empty() && left_alone.is_empty() {
-        meshes.clear();
         settings.clear();
         #[cfg(feature = "render")]
         materials.iter_mut().for_each(MessageReader::clear);
         return;
     }
-    let meshes: Vec<AssetId<Mesh>> = meshes.read().filter_map(edited).collect();
     let settings: Vec<AssetId<CoatingSettings>> = settings.read().filter_map(edited).collect();
     #[cfg(feature = "render")]
     let materials: Vec<_> = materials.iter_mut().flat_map(MessageReader::read).filter_map(edited).collect();

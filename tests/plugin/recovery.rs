@@ -1,6 +1,9 @@
 //! Props that were refused, and recover when the cause is mended.
 
-use bevy::{mesh::skinning::SkinnedMesh, prelude::*};
+use bevy::{
+    mesh::{VertexAttributeValues, skinning::SkinnedMesh},
+    prelude::*,
+};
 use bevy_coating::{film::FilmMesh, prelude::*};
 
 use crate::common::*;
@@ -41,6 +44,22 @@ fn a_mended_mesh_is_coated() {
     assert_eq!(refused(&mut app), CoatingFault::NoPositions);
     app.world_mut().resource_mut::<Assets<Mesh>>().insert(&handle, plate(3)).expect("a handle");
     recovers(&mut app, prop);
+}
+
+#[test]
+fn a_mesh_that_is_mended_during_its_build_is_coated() {
+    let mut app = app();
+    // Large, so that its last vertex is looked at some frames after the build has begun.
+    let mut broken = plate(700);
+    if let Some(VertexAttributeValues::Float32x3(positions)) = broken.attribute_mut(Mesh::ATTRIBUTE_POSITION) {
+        positions.last_mut().expect("a vertex")[0] = f32::NAN;
+    }
+    let handle = add_mesh(&mut app, broken);
+    let prop = app.world_mut().spawn((Mesh3d(handle.clone()), quick_coating())).id();
+    update_until(&mut app, |app| app.world().get::<CoatedBy>(prop).is_some());
+    app.world_mut().resource_mut::<Assets<Mesh>>().insert(&handle, plate(3)).expect("a handle");
+    update_until(&mut app, |app| app.world().get::<FilmMesh>(prop).is_some());
+    assert_eq!(app.world().get::<FilmMesh>(prop).map(|film| film.topology.face_count()), Some(18));
 }
 
 #[test]
