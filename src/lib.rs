@@ -119,6 +119,8 @@ mod attach;
 #[cfg(feature = "bake")]
 pub mod bake;
 mod coding;
+#[cfg(feature = "plugin")]
+mod debris;
 pub mod deform;
 #[cfg(feature = "plugin")]
 mod display;
@@ -131,6 +133,8 @@ pub mod history;
 mod mesh_reader;
 #[cfg(feature = "plugin")]
 mod plugin;
+#[cfg(feature = "tools")]
+mod pointing;
 pub mod prelude;
 pub mod remesh;
 pub mod settings;
@@ -144,6 +148,7 @@ mod stepping;
 pub mod surface;
 #[cfg(feature = "plugin")]
 mod timeline;
+pub mod touch;
 
 #[cfg(feature = "plugin")]
 pub use api::{
@@ -151,6 +156,7 @@ pub use api::{
     calendar::CoatingCalendar,
     clock::{CoatingClock, CoatingGravity, DEFAULT_AGE_PER_SECOND},
     coating::{Coating, SettingsSource},
+    debris::{CoatingDebris, Flake},
     diagnostics,
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,
@@ -158,7 +164,7 @@ pub use api::{
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatedMesh, CoatingPart},
-    messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
+    messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RestoreFailed},
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
@@ -175,10 +181,12 @@ pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 #[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
+#[cfg(feature = "tools")]
+pub use pointing::{BrushGizmos, CoatingBrush, CoatingPointingPlugin, FilmHit};
 #[cfg(feature = "plugin")]
 pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
 #[cfg(feature = "plugin")]
-pub use stepping::FilmEdit;
+pub use stepping::{FilmEdit, TouchAt, TouchCommands};
 #[cfg(feature = "plugin")]
 pub use timeline::{CoatingCommands, FilmHistory};
 

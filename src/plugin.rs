@@ -14,13 +14,14 @@ use crate::{
         calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
-        messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
+        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RestoreFailed},
         status::CoatingStatus,
         system_sets::CoatingAdvance,
         unit::CoatingUnit,
         weather::CoatingWeather,
     },
     attach::add_attachment,
+    debris::add_debris,
     display::FilmDisplayPlugin,
     settings::asset::CoatingSettingsPlugin,
     stepping, timeline,
@@ -89,11 +90,13 @@ impl Plugin for CoatingWeatheringPlugin {
             .add_message::<FilmFailed>()
             .add_message::<FirstCrack>()
             .add_message::<PieceFallen>()
+            .add_message::<FilmRepainted>()
             .add_message::<AgeReached>()
             .add_message::<RestoreFailed>();
         diagnostics::add_diagnostics(app);
         stepping::add_step_schedule(app);
         add_attachment(app);
+        add_debris(app);
         let checks = (stepping::check_weather, stepping::check_clock, stepping::follow_coatings);
         let travels = (timeline::follow_histories, timeline::hand_out_ages, timeline::travel).chain();
         app.add_systems(self.schedule, (checks, travels, stepping::advance).chain().in_set(CoatingAdvance));

@@ -9,11 +9,12 @@ pub use crate::{
         calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         coating::{Coating, SettingsSource},
+        debris::{CoatingDebris, Flake},
         error::{CoatingError, CoatingFault},
         exclude::CoatingExclude,
         history::CoatingHistory,
         links::CoatedBy,
-        messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
+        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RestoreFailed},
         outline::{PropMask, PropOutline},
         seed::CoatingSeed,
         shelter::{RainShelter, Shelter},
@@ -25,6 +26,7 @@ pub use crate::{
         weather::CoatingWeather,
     },
     plugin::CoatingWeatheringPlugin,
+    stepping::{TouchAt, TouchCommands},
     timeline::CoatingCommands,
 };
 pub use crate::{

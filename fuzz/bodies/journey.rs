@@ -9,6 +9,7 @@ use bevy_coating::{
     sim::FilmState,
     snapshot::Snapshot,
     stain::{Environment, Exposure},
+    touch::{Change, Effect, Site, Touch},
 };
 
 use super::input::Input;
@@ -38,9 +39,39 @@ pub fn journey(bytes: &[u8]) {
     assert_eq!(replayed.film().digest(), digest, "it is replayed as it was");
 }
 
+fn touch(input: &mut Input) -> Touch {
+    let site = |input: &mut Input| Site {
+        face: FaceId(u32::from(input.byte()) % 90),
+        shares: [input.word() / 2, input.word() / 2],
+    };
+    let at = site(input);
+    let number = input.float();
+    let change = match input.byte() % 3 {
+        0 => Change::Set(number),
+        1 => Change::Add(number),
+        _ => Change::Multiply(number),
+    };
+    let effect = match input.byte() % 12 {
+        0 => Effect::Adhesion(change),
+        1 => Effect::Binding(change),
+        2 => Effect::Contraction(change),
+        3 => Effect::Rust(number),
+        4 => Effect::Dust(change),
+        5 => Effect::Moisture(change),
+        6 => Effect::Strip,
+        7 => Effect::Repaint,
+        8 => Effect::Hit(number),
+        9 => Effect::Scratch(site(input)),
+        10 => Effect::Wash(number),
+        _ => Effect::Sand(number),
+    };
+    let radius = f32::from(input.byte()) / 200.0;
+    Touch { site: at, radius, hardness: f32::from(input.byte()) / 255.0, effect }
+}
+
 fn act(history: &mut History, input: &mut Input) {
     let now = history.film().clock.steps;
-    let event = match input.byte() % 14 {
+    let event = match input.byte() % 16 {
         0 | 1 => return history.step().expect("a step"),
         2 => return history.seek(now + u64::from(input.byte() % 16)).expect("a step"),
         3 => return history.seek(now.saturating_sub(u64::from(input.byte()))).expect("the past"),
@@ -66,6 +97,7 @@ fn act(history: &mut History, input: &mut Input) {
             let [rain, sun] = [(); 2].map(|()| (0..input.byte() % 64).map(|_| input.float()).collect());
             Event::Exposure(Exposure { rain, sun })
         }
+        13 | 14 => Event::Touch(touch(input), input.byte().into()),
         _ => {
             let mut settings = history.settings().clone();
             let fields = CoatingSettings::fields().count();

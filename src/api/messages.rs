@@ -8,7 +8,12 @@ use bevy::{
 };
 
 use super::error::CoatingError;
-use crate::{snapshot::SnapshotError, surface::BuildWarning};
+use crate::{
+    film::{FaceId, FilmMesh},
+    fracture::FilmForces,
+    snapshot::SnapshotError,
+    surface::BuildWarning,
+};
 
 /// Message that a film has been built and its prop shows it.
 ///
@@ -145,6 +150,53 @@ pub struct PieceFallen {
     pub size: f32,
     /// Number of triangles of the piece.
     pub faces: u32,
+}
+
+/// Message that a film was painted over ([`Effect::Repaint`](crate::touch::Effect::Repaint)): one for each touch of the
+/// brush, with how far the work has come.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn praise(mut painted: MessageReader<FilmRepainted>) {
+///     for film in painted.read().filter(|film| film.is_finished()) {
+///         info!("{} is as good as new", film.root);
+///     }
+/// }
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, praise);
+/// app.update();
+/// ```
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
+pub struct FilmRepainted {
+    /// Entity of the film.
+    pub entity: Entity,
+    /// Entity with the film's `Coating`.
+    pub root: Entity,
+    /// Share of the film's area that is there and attached to the metal at all corners, from 0 to 1.
+    pub whole: f32,
+}
+
+impl FilmRepainted {
+    /// Share of the film from which it counts as painted.
+    pub const FINISHED: f32 = 0.98;
+
+    /// Returns whether the film is whole but for 2 %: nobody finds the last spot.
+    pub fn is_finished(&self) -> bool {
+        self.whole >= Self::FINISHED
+    }
+
+    /// Returns the message for a film.
+    pub(crate) fn of(entity: Entity, root: Entity, mesh: &FilmMesh, forces: &FilmForces) -> Self {
+        let topology = &mesh.topology;
+        let holds = |f: &FaceId| topology.corners(*f).into_iter().all(|v| forces.is_attached(v));
+        let area = |f: FaceId| f64::from(mesh.geometry.rest_area_of(topology, f));
+        let whole: f64 = topology.live_faces().filter(holds).map(area).sum();
+        Self { entity, root, whole: (whole / f64::from(mesh.geometry.rest_area)) as f32 }
+    }
 }
 
 /// Message that a film has come to the age to which it was [sought](crate::sim::FilmClock::seek), or to a saved state

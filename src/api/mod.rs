@@ -8,6 +8,7 @@ pub(crate) mod budget;
 pub(crate) mod calendar;
 pub(crate) mod clock;
 pub(crate) mod coating;
+pub(crate) mod debris;
 pub mod diagnostics;
 pub(crate) mod display_cost;
 pub(crate) mod error;

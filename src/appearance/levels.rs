@@ -98,6 +98,11 @@ impl FilmLevels {
         self.detail.tolerance * mesh.geometry.mean_edge
     }
 
+    /// Returns the attributes of the film's corners.
+    pub(super) fn attributes(&self) -> &CornerAttributes {
+        &self.attributes
+    }
+
     /// Returns the finest level.
     pub fn finest(&self) -> u32 {
         self.finest.as_ref().map_or(0, |base| base.layout.grid.level())

@@ -41,6 +41,7 @@ mod in_slots;
 mod levels;
 mod part;
 mod part_changes;
+mod pieces;
 mod seen;
 pub mod shading;
 #[cfg(test)]
@@ -54,6 +55,7 @@ pub use detail::Detail;
 pub use levels::FilmLevels;
 pub use part::MeshPart;
 pub use part_changes::{IndexRanges, PartChanges};
+pub use pieces::PieceParts;
 
 use crate::{
     film::FilmMesh,

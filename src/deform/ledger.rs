@@ -133,9 +133,10 @@ impl Ledger {
         self.revision += 1;
     }
 
-    /// Adds a bend constraint to `h`, which has none, that begins at `angle` (radians); it is parked.
-    pub fn add_bend(&mut self, h: HalfEdgeId, angle: f32) {
-        self.angles[h.index()] = [angle; 2];
+    /// Adds a bend constraint to `h`, which has none, with the angle at which it began and its target (radians); it is
+    /// parked.
+    pub fn add_bend(&mut self, h: HalfEdgeId, angles: [f32; 2]) {
+        self.angles[h.index()] = angles;
         self.bends.add(h);
         self.revision += 1;
     }

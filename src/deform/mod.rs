@@ -30,6 +30,7 @@ mod length;
 mod pace;
 mod packed;
 mod plain;
+mod renew;
 mod rigid;
 mod sleep;
 mod solver;

@@ -69,6 +69,13 @@ pub(crate) struct FilmDisplay {
     pub(super) parts: super::part_handles::PartHandles,
 }
 
+impl FilmDisplay {
+    /// Returns what the film looks like.
+    pub(crate) fn appearance(&self) -> &FilmAppearance {
+        &self.appearance
+    }
+}
+
 /// Primitive of the prop.
 pub(super) struct DisplaySlot {
     /// Attributes that its own mesh has.

@@ -100,7 +100,7 @@ impl Topology {
     pub(crate) fn strip(&mut self, f: FaceId) -> bool {
         let cut_out = self.is_cut_out(f);
         if cut_out {
-            self.remove(f, FaceFate::Stripped);
+            self.take_away(f, FaceFate::Stripped);
         }
         cut_out
     }
@@ -115,12 +115,13 @@ impl Topology {
         );
         for &f in piece {
             if self.is_live(f) {
-                self.remove(f, FaceFate::Fallen);
+                self.take_away(f, FaceFate::Fallen);
             }
         }
     }
 
-    fn remove(&mut self, f: FaceId, fate: FaceFate) {
+    /// Takes the live face `f` away for good, which must be bound to no face that stays.
+    pub(super) fn take_away(&mut self, f: FaceId, fate: FaceFate) {
         self.fates[f.index()] = fate;
         self.removed_faces += 1;
         for v in self.corners(f) {

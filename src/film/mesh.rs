@@ -84,7 +84,7 @@ impl FilmMesh {
 }
 
 /// Returns the mean depth along `gravity` of the fan that starts at `first`, and the lowest id of its faces.
-fn fan_depth(topology: &Topology, geometry: &Geometry, first: HalfEdgeId, gravity: Vec3) -> (f32, FaceId) {
+pub(super) fn fan_depth(topology: &Topology, geometry: &Geometry, first: HalfEdgeId, gravity: Vec3) -> (f32, FaceId) {
     let (mut depth, mut faces, mut lowest) = (0.0, 0.0, FaceId::NONE);
     for h in topology.fan_at(first) {
         depth += geometry.rest_centroid(topology, h.face()).dot(gravity);

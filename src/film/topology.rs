@@ -147,12 +147,10 @@ impl Topology {
         Ok(())
     }
 
-    /// Finds the fan of every vertex and the vertices on the border.
-    fn find_fans(&mut self) -> Result<(), TopologyError> {
-        let mut corners = vec![0u32; self.fans.len()];
+    /// Finds where the fan of every vertex begins at rest, and the vertices on the border.
+    pub(super) fn begin_fans(&mut self) {
         for h in self.all_half_edges() {
             let v = self.origin(h).index();
-            corners[v] += 1;
             let open = self.twins[h.index()] == HalfEdgeId::NONE;
             if open || self.fans[v] == HalfEdgeId::NONE {
                 self.fans[v] = h;
@@ -162,6 +160,15 @@ impl Topology {
                 let end = self.target(h).index();
                 self.border[end] = true;
             }
+        }
+    }
+
+    /// Finds the fan of every vertex and the vertices on the border.
+    fn find_fans(&mut self) -> Result<(), TopologyError> {
+        self.begin_fans();
+        let mut corners = vec![0u32; self.fans.len()];
+        for h in self.all_half_edges() {
+            corners[self.origin(h).index()] += 1;
         }
         for v in (0..self.fans.len()).map(VertexId::new) {
             if self.fan(v).count() as u32 != corners[v.index()] {

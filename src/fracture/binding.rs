@@ -61,6 +61,11 @@ impl Binding {
         *self = Self { drawn: force, share: 1.0, since: decay as f32, by_hand: true, ..*self };
     }
 
+    /// Multiplies the force by `factor`, now and whatever is drawn later.
+    pub fn scale(&mut self, factor: f32) {
+        self.share *= factor;
+    }
+
     /// Sets the force before any decay, unless it was set by hand.
     pub fn redraw(&mut self, force: f32) {
         if !self.by_hand {

@@ -18,8 +18,11 @@ impl FilmForces {
             adhesion_drawn,
             adhesion_by_hand,
             adhesion_lost_wet,
+            adhesion_share,
+            rebound,
             adhesion_lost,
             contractions,
+            contraction_spared,
             contraction_gained,
             bindings,
             binding_decay,
@@ -46,6 +49,15 @@ impl FilmForces {
         if !loose_since.is_empty() {
             to.floats(loose_since);
         }
+        if !contraction_spared.is_empty() {
+            to.floats(contraction_spared);
+        }
+        if !adhesion_share.is_empty() {
+            to.floats(adhesion_share);
+        }
+        if !rebound.is_empty() {
+            to.flags(rebound);
+        }
         if !necks.is_empty() {
             to.list(necks.iter().flat_map(|neck| [neck.at.0, neck.held_by[0].0, neck.held_by[1].0]));
         }
@@ -71,7 +83,7 @@ mod tests {
         let (positions, triangles) = grid(2, 2);
         let mesh = FilmMesh::new(positions, &triangles).unwrap();
         let forces = FilmForces::new(&mesh, &CoatingSettings::default(), 3);
-        let changes: [fn(&mut FilmForces); 24] = [
+        let changes: [fn(&mut FilmForces); 27] = [
             |forces| forces.separated_age[1] = 0.5,
             |forces| forces.tips[1] = Vec3::X,
             |forces| forces.torn_edges = 1,
@@ -91,6 +103,9 @@ mod tests {
             |forces| forces.adhesion_drawn[0] = 0.5,
             |forces| forces.adhesion_by_hand[0] = true,
             |forces| forces.adhesion_lost_wet[0] = 0.5,
+            |forces| forces.adhesion_share = vec![0.5; 9],
+            |forces| forces.rebound = vec![false; 9],
+            |forces| forces.contraction_spared = vec![0.5; 8],
             |forces| forces.adhesion_lost = 0.5,
             |forces| forces.contractions[0] = Contraction { base: 0.5, ..forces.contractions[0] },
             |forces| forces.contractions[0] = Contraction { share: 0.5, ..forces.contractions[0] },

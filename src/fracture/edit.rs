@@ -19,6 +19,13 @@ impl FilmForces {
         self.adhesion_drawn.push(self.adhesion_drawn[v.index()]);
         self.adhesion_by_hand.push(self.adhesion_by_hand[v.index()]);
         self.adhesion_lost_wet.push(self.adhesion_lost_wet[v.index()]);
+        if !self.adhesion_share.is_empty() {
+            self.adhesion_share.push(self.adhesion_share[v.index()]);
+        }
+        if !self.rebound.is_empty() {
+            // It has separated, as its vertex has.
+            self.rebound.push(false);
+        }
         self.separated_age.push(self.separated_age[v.index()]);
         self.tips[v.index()] = Vec3::ZERO;
         self.tips.push(Vec3::ZERO);

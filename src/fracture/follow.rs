@@ -72,9 +72,11 @@ impl FilmForces {
     /// its original, whose place it has.
     pub(super) fn draw_adhesion(&mut self, mesh: &FilmMesh, settings: &AdhesionSettings) {
         let field = adhesion_field(&mesh.geometry.rest_positions, settings, self.drawn.grain, self.drawn.seed);
-        for ((adhesion, drawn), by_hand) in self.adhesion_drawn.iter_mut().zip(field).zip(&self.adhesion_by_hand) {
+        let shares = self.adhesion_share.iter().copied().chain(std::iter::repeat(1.0));
+        let adhesion = self.adhesion_drawn.iter_mut().zip(&self.adhesion_by_hand);
+        for ((adhesion, by_hand), (drawn, share)) in adhesion.zip(field.into_iter().zip(shares)) {
             if !by_hand {
-                *adhesion = drawn;
+                *adhesion = drawn * share;
             }
         }
     }

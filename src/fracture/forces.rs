@@ -62,12 +62,21 @@ pub struct FilmForces {
     pub(super) adhesion_drawn: Vec<f32>,
     /// Whether the adhesion of each vertex was set by hand, so that it does not follow settings.
     pub(super) adhesion_by_hand: Vec<bool>,
-    /// Adhesion that each vertex has lost by being wet, beyond what every vertex has lost.
+    /// Adhesion that each vertex has lost by being wet or by hand, beyond what every vertex has lost. It is negative
+    /// where adhesion was added.
     pub(super) adhesion_lost_wet: Vec<f32>,
+    /// Share of the drawn adhesion that each vertex has got: 1 where nothing was done to it. Empty while it is 1
+    /// everywhere.
+    pub(super) adhesion_share: Vec<f32>,
+    /// Whether each vertex was attached again with new paint and has not separated since. Only there may a vertex be
+    /// attached at a torn edge. Empty while nothing was renewed.
+    pub(super) rebound: Vec<bool>,
     /// Adhesion that every vertex has lost so far. Adhesion is 0 where more was lost than there was.
     pub(super) adhesion_lost: f64,
     /// Contraction of each face, less what every face has gained.
     pub(super) contractions: Vec<Contraction>,
+    /// Contraction that all faces had gained before each was painted over: it has less by that. Empty while none was.
+    pub(super) contraction_spared: Vec<f32>,
     /// Contraction that every face has gained so far.
     pub(super) contraction_gained: f64,
     /// Binding of each edge, at the index of its lower half-edge.
@@ -212,6 +221,44 @@ impl FilmForces {
         self.adhesion_drawn[i] = adhesion + self.adhesion_lost as f32;
         self.adhesion_lost_wet[i] = 0.0;
         self.adhesion_by_hand[i] = true;
+        if let Some(share) = self.adhesion_share.get_mut(i) {
+            *share = 1.0;
+        }
+        self.predictions.separations.make_due(v.0);
+    }
+
+    /// Multiplies the adhesion that was drawn for `v` by `factor`, from 0 to 1,000: as if the paint had been put on so
+    /// from the start. Unlike [`set_adhesion`](Self::set_adhesion), it goes on following settings.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::{FilmMesh, VertexId},
+    ///     fracture::FilmForces,
+    ///     settings::CoatingSettings,
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let mesh = FilmMesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]])?;
+    /// let mut settings = CoatingSettings::default();
+    /// settings.adhesion.deviation = 0.0;
+    /// let mut forces = FilmForces::new(&mesh, &settings, 7);
+    /// forces.scale_adhesion(VertexId(2), 2.0);
+    /// settings.adhesion.mean = 1.5;
+    /// forces.follow_settings(&mesh, &settings);
+    /// assert_eq!([0, 2].map(|v| forces.adhesion(VertexId(v))), [1.5, 3.0]);
+    /// # Ok::<(), bevy_coating::film::TopologyError>(())
+    /// ```
+    pub fn scale_adhesion(&mut self, v: VertexId, factor: f32) {
+        let i = v.index();
+        self.adhesion_share.resize(self.adhesion_drawn.len(), 1.0);
+        self.adhesion_share[i] *= factor;
+        self.adhesion_drawn[i] *= factor;
+        self.predictions.separations.make_due(v.0);
+    }
+
+    /// Adds `force` to the adhesion of `v`, which goes on following settings. Adhesion never falls below 0.
+    pub fn add_adhesion(&mut self, v: VertexId, force: f32) {
+        self.adhesion_lost_wet[v.index()] -= force;
         self.predictions.separations.make_due(v.0);
     }
 
@@ -245,6 +292,23 @@ impl FilmForces {
             self.predictions.separations.make_due(topology.origin(h).0);
             self.predictions.tears.make_due(topology.edge(h).0);
         }
+    }
+
+    /// Multiplies the present contraction of `f` by `factor`, from 0 to 1,000. It goes on following settings.
+    pub fn scale_contraction(&mut self, topology: &Topology, f: FaceId, factor: f32) {
+        self.relieve(f, factor);
+        for h in f.half_edges() {
+            self.predictions.separations.make_due(topology.original(topology.origin(h)).0);
+            self.predictions.tears.make_due(topology.edge(h).0);
+        }
+    }
+
+    /// Multiplies the present binding of the edge of `h` by `factor`, from 0 to 1,000. It goes on following settings,
+    /// and decaying beside torn edges.
+    pub fn scale_binding(&mut self, topology: &Topology, h: HalfEdgeId, factor: f32) {
+        let edge = topology.edge(h);
+        self.bindings[edge.index()].scale(factor);
+        self.predictions.tears.make_due(edge.0);
     }
 
     /// Returns the binding of the edge of `h` (VC 3.3). Once the edge has torn, returns the last binding that it had.

@@ -31,6 +31,7 @@ mod neck;
 mod neck_search;
 mod predictions;
 mod relief;
+mod renew;
 mod saved;
 mod scratch;
 mod separation;
@@ -45,6 +46,7 @@ mod tests;
 
 pub use adhesion::adhesion_field;
 pub use aging::age_forces;
+pub(crate) use by_hand::{cut, cut_out, strike};
 pub use by_hand::{strip_by_hand, tear_by_hand};
 pub use forces::FilmForces;
 pub use scratch::FractureScratch;

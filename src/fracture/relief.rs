@@ -66,7 +66,7 @@ pub(super) fn relieve_beside(
     let far = LARGEST_REACH * reach;
     // A strip wide enough for its faces to hang together: its triangles are as wide as the edge or the mean edge.
     let aside = if length > mesh.geometry.mean_edge { length } else { mesh.geometry.mean_edge };
-    let full = settings.relief * (forces.drawn.contraction + forces.contraction_gained as f32);
+    let gained = forces.drawn.contraction + forces.contraction_gained as f32;
 
     scratch.begin(topology.face_count());
     scratch.reach(edge.face());
@@ -83,7 +83,10 @@ pub(super) fn relieve_beside(
             continue;
         }
         if position >= -MARGIN * length && position <= (1.0 + MARGIN) * length {
-            forces.relieve_by(f, full * ops::exp(-distance / reach));
+            // Paint that is newer has gained less.
+            let spared = forces.contraction_spared.get(f.index()).copied().unwrap_or(0.0);
+            let full = settings.relief * (gained - spared);
+            forces.relieve_by(f, full * ops::exp(-distance / reach) + spared);
         }
         for h in f.half_edges() {
             if let Some(twin) = topology.bound_twin(h) {
@@ -99,7 +102,8 @@ fn length_of(v: Vec3) -> f32 {
 }
 
 impl FilmForces {
-    /// Makes the contraction of `f` at most that of a face that was relieved by `relief` and by nothing else.
+    /// Makes the contraction of `f` at most that of a face that has `relief` less than all have gained, and was
+    /// relieved by nothing else.
     fn relieve_by(&mut self, f: FaceId, relief: f32) {
         let drawn = self.drawn.contraction;
         let face = &mut self.contractions[f.index()];

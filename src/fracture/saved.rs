@@ -108,6 +108,17 @@ impl FilmForces {
             coder.plain_double(sum);
         }
         self.code_faces(coder);
+        let spared = coder.plain(u32::from(!self.contraction_spared.is_empty()), 1) != 0;
+        if C::READS {
+            self.contraction_spared = vec![0.0; if spared { self.contractions.len() } else { 0 }];
+        }
+        // All that was painted at once has the same.
+        let mut list = Differences::default();
+        let mut before = 0.0;
+        for spared in &mut self.contraction_spared {
+            coder.float(&mut list, spared, before);
+            before = *spared;
+        }
         self.code_bindings(fresh, topology, coder)?;
         self.code_loose(topology, coder)?;
         if C::READS {
@@ -125,6 +136,16 @@ impl FilmForces {
         coder.floats(&mut self.adhesion_lost_wet, |_| 0.0);
         let mut odds = Odds::default();
         self.adhesion_by_hand.iter_mut().for_each(|by_hand| coder.flag(&mut odds, by_hand, false));
+        let vertices = self.adhesion_drawn.len();
+        let is_scaled = coder.plain(u32::from(!self.adhesion_share.is_empty()), 1) != 0;
+        let was_renewed = coder.plain(u32::from(!self.rebound.is_empty()), 1) != 0;
+        if C::READS {
+            self.adhesion_share = vec![1.0; if is_scaled { vertices } else { 0 }];
+            self.rebound = vec![false; if was_renewed { vertices } else { 0 }];
+        }
+        coder.floats(&mut self.adhesion_share, |_| 1.0);
+        let mut odds = Odds::default();
+        self.rebound.iter_mut().for_each(|rebound| coder.flag(&mut odds, rebound, false));
     }
 
     fn code_faces<C: Coder>(&mut self, coder: &mut C) {

@@ -131,6 +131,9 @@ pub(super) fn let_go(topology: &Topology, forces: &mut FilmForces, v: VertexId, 
         return;
     }
     forces.separated_age[v.index()] = age;
+    if let Some(rebound) = forces.rebound.get_mut(v.index()) {
+        *rebound = false;
+    }
     forces.separations += 1;
     forces.predictions.pieces.vertex_separated(topology, v);
     forces.make_edges_due(topology, v);
@@ -178,7 +181,7 @@ impl OneRing {
         if self.lift == 0.0 || adhesion == f64::INFINITY {
             return f64::INFINITY;
         }
-        let base = f64::from(forces.adhesion_drawn[v.index()].abs() + forces.adhesion_lost_wet[v.index()]);
+        let base = f64::from(forces.adhesion_drawn[v.index()].abs() + forces.adhesion_lost_wet[v.index()].abs());
         let rates = forces.predictions.rates;
         // Each term of a sum may be off by half the last place of the largest term, and so may each step while it is
         // wet.

@@ -41,6 +41,15 @@ impl FilmForces {
                 return Err(InvariantError::ArrayLength(name));
             }
         }
+        for (name, found) in [("adhesion_share", self.adhesion_share.len()), ("rebound", self.rebound.len())] {
+            if found != 0 && found != vertices {
+                return Err(InvariantError::ArrayLength(name));
+            }
+        }
+        let spared = self.contraction_spared.len();
+        if spared != 0 && spared != topology.face_count() {
+            return Err(InvariantError::ArrayLength("contraction_spared"));
+        }
         for h in topology.all_edges() {
             let decaying = if self.bindings[h.index()].decays() { topology.torn_faces(h) } else { 0 };
             if self.bindings[h.index()].torn_faces() != decaying {
@@ -52,5 +61,10 @@ impl FilmForces {
             return Err(InvariantError::Pieces);
         }
         Ok(())
+    }
+
+    /// Returns whether `v` was attached again with new paint and has not separated since.
+    pub(crate) fn is_rebound(&self, v: crate::film::VertexId) -> bool {
+        self.rebound.get(v.index()).copied().unwrap_or(false)
     }
 }

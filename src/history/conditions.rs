@@ -49,6 +49,7 @@ impl Conditions {
                 let is_there = h.index() < mesh.topology.half_edge_count();
                 is_there.then(|| forces.set_binding(&mesh.topology, *h, *force)).is_some()
             }
+            Event::Touch(touch, _) => film.touch(touch, settings, environment).is_ok(),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::{
     film::{FaceId, HalfEdgeId, VertexId},
     settings::CoatingSettings,
     stain::{Environment, Exposure},
+    touch::Touch,
 };
 
 /// Event between two steps of a film: a change of what acts on it, or an edit.
@@ -31,6 +32,9 @@ pub enum Event {
     Contraction(FaceId, f32),
     /// The binding of an edge is set, a force ([`FilmForces::set_binding`](crate::fracture::FilmForces::set_binding)).
     Binding(HalfEdgeId, f32),
+    /// A brush or a game touches the film ([`FilmState::touch`](crate::sim::FilmState::touch)). The number is that of
+    /// the stroke that the touch is part of: strokes are undone as a whole.
+    Touch(Touch, u32),
 }
 
 /// Event and when it happened.

@@ -133,6 +133,65 @@ impl History {
         changes
     }
 
+    /// Takes back the last stroke that touched the film, as if it had never been, and returns whether there was one.
+    /// All else that happened since happens again. [`redo`](Self::redo) takes what this returns.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if a keyframe is due and the film cannot be saved. The film is somewhere on the
+    /// way then.
+    ///
+    /// ```
+    /// use bevy_coating::{
+    ///     film::FaceId,
+    ///     history::{Event, History},
+    ///     remesh::sample,
+    ///     settings::CoatingSettings,
+    ///     sim::FilmState,
+    ///     stain::Environment,
+    ///     touch::{Effect, Site, Touch},
+    /// };
+    /// use bevy_math::Vec3;
+    ///
+    /// let settings = CoatingSettings::default();
+    /// let piece = sample::plate(200, 7)?;
+    /// let film = FilmState::new(&piece.film, &settings, 7, 100).ok_or("no film")?;
+    /// let mut history = History::new(film, settings, Environment::default())?;
+    /// history.seek(30)?;
+    /// let before = history.film().digest();
+    /// let touch = Touch::new(Site::new(FaceId(90), Vec3::ONE), 0.2, Effect::Strip);
+    /// assert!(history.record(Event::Touch(touch, 1)));
+    /// let after = history.film().digest();
+    ///
+    /// let stroke = history.undo()?.ok_or("there was a stroke")?;
+    /// assert_eq!(history.film().digest(), before);
+    /// history.redo(&stroke)?;
+    /// assert_eq!(history.film().digest(), after);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn undo(&mut self) -> Result<Option<Vec<LogEntry>>, SnapshotError> {
+        let Some(stroke) = self.past.last_stroke() else { return Ok(None) };
+        let taken = self.past.take_stroke(stroke);
+        self.go_through_again()?;
+        Ok(Some(taken))
+    }
+
+    /// Lets a stroke that was taken back happen again, where it happened.
+    ///
+    /// # Errors
+    /// [`SnapshotError::Unsaveable`] if a keyframe is due and the film cannot be saved. The film is somewhere on the
+    /// way then.
+    pub fn redo(&mut self, stroke: &[LogEntry]) -> Result<(), SnapshotError> {
+        self.past.put_stroke(stroke);
+        self.go_through_again()
+    }
+
+    /// Comes to the present step again, along the log as it is now.
+    fn go_through_again(&mut self) -> Result<(), SnapshotError> {
+        let step = self.film.clock.steps;
+        self.film.clock.steps = u64::MAX;
+        self.seek(step)
+    }
+
     /// Goes to `step`, counted as by the film's clock: back, forward, or farther than ever. Before the step at which
     /// the history begins there is nothing; it goes there then.
     ///

@@ -1,10 +1,10 @@
 //! Codes the log of a history: who was touched in what order before tells who is touched next.
 
-use std::collections::BTreeMap;
-
 use super::{
     conditions::Conditions,
     event::{Event, LogEntry},
+    touch_coding::TouchCoding,
+    touched::Touched,
 };
 use crate::{
     coding::{Coder, Damage, Differences, Odds},
@@ -12,6 +12,7 @@ use crate::{
     film::{FaceId, HalfEdgeId, VertexId},
     settings::CoatingSettings,
     stain::{Environment, Exposure},
+    touch::{Effect, Site, Touch},
 };
 
 /// Most memory that the log of a recording may take, in bytes: 256 MiB. What is read may say anything.
@@ -20,8 +21,12 @@ pub const MOST_BYTES: usize = 256 << 20;
 const DAMAGED_LOG: Damage = Damage("its log");
 const DAMAGED_SETTINGS: Damage = Damage("its settings, which are out of their ranges,");
 
+/// Touch to be filled.
+const BLANK_TOUCH: Touch =
+    Touch { site: Site { face: FaceId(0), shares: [0; 2] }, radius: 0.0, hardness: 0.0, effect: Effect::Strip };
+
 /// Number of kinds of events.
-const KINDS: usize = 9;
+const KINDS: usize = 10;
 
 /// Codes `conditions`, of which the defaults are expected.
 ///
@@ -78,6 +83,7 @@ struct LogCoding {
     exposures: Differences,
     /// Touched vertices, faces, edges; edges that were torn and faces that were cut out.
     touched: [Touched; 5],
+    touches: TouchCoding,
 }
 
 impl LogCoding {
@@ -93,6 +99,7 @@ impl LogCoding {
             exposure: Exposure::default(),
             exposures: Differences::default(),
             touched: Default::default(),
+            touches: TouchCoding::default(),
         }
     }
 
@@ -135,6 +142,7 @@ impl LogCoding {
             Event::Adhesion(VertexId(v), force) => vertices.code(v, Some(force), coder),
             Event::Contraction(FaceId(f), force) => faces.code(f, Some(force), coder),
             Event::Binding(HalfEdgeId(h), force) => edges.code(h, Some(force), coder),
+            Event::Touch(touch, stroke) => self.touches.code(touch, stroke, coder)?,
         }
         Ok(())
     }
@@ -162,6 +170,7 @@ fn kind_of(event: &Event) -> usize {
         Event::Adhesion(..) => 6,
         Event::Contraction(..) => 7,
         Event::Binding(..) => 8,
+        Event::Touch(..) => 9,
     }
 }
 
@@ -176,49 +185,8 @@ fn blank(kind: usize) -> Event {
         5 => Event::StripFace(FaceId(0)),
         6 => Event::Adhesion(VertexId(0), 0.0),
         7 => Event::Contraction(FaceId(0), 0.0),
-        _ => Event::Binding(HalfEdgeId(0), 0.0),
-    }
-}
-
-/// Elements of one kind that were touched. A brush touches about the same ones at each of its places, in the same
-/// order; and neighbours on a film have numbers near each other.
-#[derive(Default)]
-struct Touched {
-    /// Element that came after each one the last time, and the force that it was given.
-    known: BTreeMap<u32, Known>,
-    last: Option<u32>,
-    force: f32,
-    is_next: Odds,
-    ids: Differences,
-    /// Forces of elements that were touched before, and of others.
-    forces: [Differences; 2],
-}
-
-#[derive(Clone, Copy, Default)]
-struct Known {
-    next: Option<u32>,
-    force: Option<f32>,
-}
-
-impl Touched {
-    fn code<C: Coder>(&mut self, id: &mut u32, force: Option<&mut f32>, coder: &mut C) {
-        let next = self.last.and_then(|last| self.known.get(&last)?.next);
-        let is_next = next.is_some() && coder.bit(&mut self.is_next, next == Some(*id));
-        match next {
-            Some(next) if is_next => *id = next,
-            _ => coder.word(&mut self.ids, id, self.last.map_or(0, |last| last.wrapping_add(1))),
-        }
-        if let Some(last) = self.last {
-            self.known.entry(last).or_default().next = Some(*id);
-        }
-        self.last = Some(*id);
-        if let Some(force) = force {
-            let known = self.known.entry(*id).or_default();
-            let [again, new] = &mut self.forces;
-            let forces = if known.force.is_some() { again } else { new };
-            coder.float(forces, force, known.force.unwrap_or(self.force));
-            (known.force, self.force) = (Some(*force), *force);
-        }
+        8 => Event::Binding(HalfEdgeId(0), 0.0),
+        _ => Event::Touch(BLANK_TOUCH, 0),
     }
 }
 

@@ -27,6 +27,8 @@ mod past;
 mod recent;
 mod recording;
 mod recording_error;
+mod touch_coding;
+mod touched;
 
 #[cfg(test)]
 mod recording_tests;

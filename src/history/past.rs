@@ -145,6 +145,40 @@ impl Past {
         true
     }
 
+    /// Returns the number of the last stroke in the log that touched the film.
+    pub fn last_stroke(&self) -> Option<u32> {
+        self.log.iter().rev().find_map(|entry| match entry.event {
+            Event::Touch(_, stroke) => Some(stroke),
+            _ => None,
+        })
+    }
+
+    /// Takes the touches of `stroke` out of the log, and returns them. What came after them stays in the log, but has
+    /// to be gone through again: keyframes after the first of them are forgotten.
+    pub fn take_stroke(&mut self, stroke: u32) -> Vec<LogEntry> {
+        let is_of_it = |entry: &LogEntry| matches!(entry.event, Event::Touch(_, of) if of == stroke);
+        let taken: Vec<LogEntry> = self.log.iter().filter(|entry| is_of_it(entry)).cloned().collect();
+        if let Some(first) = taken.first() {
+            self.keyframes.truncate(first.step);
+            let mut log = self.log.to_vec();
+            log.retain(|entry| !is_of_it(entry));
+            self.set_log(log);
+        }
+        taken
+    }
+
+    /// Puts touches back that were taken out of the log, each after what happened at its step. Those that lie before
+    /// the past begins are left out.
+    pub fn put_stroke(&mut self, entries: &[LogEntry]) {
+        let begin = self.keyframes.steps().next().unwrap_or(0);
+        let mut log = self.log.to_vec();
+        for entry in entries.iter().filter(|entry| entry.step >= begin) {
+            self.keyframes.truncate(entry.step);
+            log.insert(log.partition_point(|other| other.step <= entry.step), entry.clone());
+        }
+        self.set_log(log);
+    }
+
     /// Forgets what is known of the time after `step`.
     pub fn forget_after(&mut self, step: u64) {
         if self.log.last().is_some_and(|last| last.step > step) {

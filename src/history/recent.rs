@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::event::Event;
 use crate::film::Topology;
 
-/// Entries of a log that a later event at the same step may overwrite. They end with a tear or a cut: what these do
-/// depends on what was before them.
+/// Entries of a log that a later event at the same step may overwrite. They end with a tear, a cut or a touch: what
+/// these do depends on what was before them.
 #[derive(Clone, Debug, Default)]
 pub struct Recent {
     step: u64,
@@ -42,7 +42,7 @@ impl Recent {
             Event::Adhesion(v, _) => Thing::Adhesion(v.0),
             Event::Contraction(f, _) => Thing::Contraction(f.0),
             Event::Binding(h, _) if h.index() < topology.half_edge_count() => Thing::Binding(topology.edge(*h).0),
-            Event::Binding(..) | Event::TearEdge(_) | Event::StripFace(_) => {
+            Event::Binding(..) | Event::TearEdge(_) | Event::StripFace(_) | Event::Touch(..) => {
                 self.places.clear();
                 return entries;
             }

@@ -28,7 +28,7 @@ use crate::{
 
 /// Format of recordings. Another version for every change of what is recorded, in which order, or of what is expected
 /// of it, and for every change of snapshots.
-pub(super) const RECORDING: Kind = Kind { magic: *b"bvcrec", version: 1 };
+pub(super) const RECORDING: Kind = Kind { magic: *b"bvcrec", version: 2 };
 
 /// Past of a film as bytes: how it began, and all events since. Replayed on the same mesh, on any machine, it gives the
 /// same film at every step, to the bit.

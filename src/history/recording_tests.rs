@@ -17,11 +17,16 @@ use crate::{
     sim::FilmState,
     snapshot::header,
     stain::{Environment, Exposure},
+    touch::{Change, Effect, Site, Touch},
 };
 
 fn film(triangles: u32, seed: u64) -> FilmState {
     let piece = sample::plate(triangles, 5).expect("a plate");
     FilmState::new(&piece.film, &CoatingSettings::default(), seed, 100).expect("a manifold")
+}
+
+fn touched(face: u32, effect: Effect) -> Event {
+    Event::Touch(Touch::new(Site::new(FaceId(face), Vec3::new(0.2, 0.3, 0.5)), 0.2, effect), face / 4)
 }
 
 /// A past with events of all kinds.
@@ -41,6 +46,17 @@ fn eventful(triangles: u32) -> History {
         (61, Event::Binding(HalfEdgeId(50), 0.1)),
         (61, Event::Adhesion(VertexId(8), -0.0)),
         (62, Event::Exposure(Exposure { rain: Vec::new(), sun: vec![0.25; 50] })),
+        (63, touched(11, Effect::Adhesion(Change::Set(f32::INFINITY)))),
+        (63, touched(12, Effect::Binding(Change::Multiply(0.25)))),
+        (64, touched(13, Effect::Contraction(Change::Add(0.5)))),
+        (64, touched(14, Effect::Rust(0.5))),
+        (65, touched(15, Effect::Moisture(Change::Set(0.7)))),
+        (66, touched(16, Effect::Strip)),
+        (66, touched(17, Effect::Hit(6.0))),
+        (67, touched(18, Effect::Wash(0.5))),
+        (67, touched(19, Effect::Sand(0.25))),
+        (68, touched(20, Effect::Scratch(Site::new(FaceId(45), Vec3::Z)))),
+        (69, touched(16, Effect::Repaint)),
     ];
     for (step, event) in events {
         history.seek(step).expect("a step");
@@ -151,6 +167,28 @@ fn damage_is_named() {
     settings.tearing.beta = 2.0;
     let history = History::new(film(100, 5), settings, Environment::default()).expect("a history");
     assert!(matches!(history.recording(), Err(RecordingError::Unrecordable { .. })), "settings out of range");
+}
+
+/// A player who paints without a rest, 60 touches a second while a film takes 20 steps, sends less than 1 kB a second.
+#[test]
+fn strokes_take_few_bytes() {
+    let mut history = History::new(film(3_000, 5), CoatingSettings::default(), Environment::default()).expect("one");
+    let faces = history.film().mesh.topology.face_count() as f32;
+    let bytes = |history: &History| history.recording().expect("a recording").as_bytes().len();
+    let before = bytes(&history);
+    for i in 0..600u32 {
+        let turn = i as f32 * 0.013;
+        let face = (faces * (0.5 + 0.4 * (turn * 7.0).sin() * turn.cos())) as u32;
+        let at = Vec3::new(turn.fract(), (turn * 31.0).fract(), (turn * 17.0).fract());
+        let touch = Touch::new(Site::new(FaceId(face), at), 0.1, Effect::Adhesion(Change::Multiply(0.9)));
+        assert!(history.record(Event::Touch(touch, i / 100)));
+        if i % 3 == 2 {
+            history.step().expect("a step");
+        }
+    }
+    let rate = (bytes(&history) - before) / 10;
+    println!("{rate} bytes a second");
+    assert!(rate < 1_000, "{rate}");
 }
 
 proptest! {

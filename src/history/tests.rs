@@ -14,6 +14,7 @@ use crate::{
     settings::{CoatingSettings, Preset},
     sim::FilmState,
     stain::{Environment, Exposure},
+    touch::{Change, Effect, Site, Touch},
 };
 
 fn history(triangles: u32) -> History {
@@ -21,6 +22,10 @@ fn history(triangles: u32) -> History {
     let piece = sample::plate(triangles, 5).expect("a plate");
     let film = FilmState::new(&piece.film, &settings, 5, 100).expect("a manifold");
     History::new(film, settings, Environment::default()).expect("a history")
+}
+
+fn touch(face: u32, effect: Effect) -> Event {
+    Event::Touch(Touch::new(Site::new(FaceId(face), Vec3::ONE), 0.2, effect), face)
 }
 
 /// An event at each of some steps.
@@ -36,7 +41,51 @@ fn events() -> Vec<(u64, Event)> {
         (50, Event::Quality(SolverQuality::Fast)),
         (60, Event::Contraction(FaceId(7), 2.5)),
         (61, Event::Binding(HalfEdgeId(50), 0.1)),
+        (62, touch(40, Effect::Dust(Change::Set(0.9)))),
+        (70, touch(90, Effect::Hit(8.0))),
+        (75, touch(100, Effect::Repaint)),
+        (90, touch(20, Effect::Scratch(Site::new(FaceId(200), Vec3::ONE)))),
     ]
+}
+
+#[test]
+fn a_stroke_is_taken_back_and_put_again_while_all_else_stays() {
+    let mut history = history(300);
+    history.set_keyframe_bytes(60_000);
+    let mut other = history.clone();
+    for step in 0..60 {
+        for (face, at, stroke) in [(100, 20, 1), (110, 22, 1), (150, 30, 2)] {
+            if step == at {
+                let strip = Touch::new(Site::new(FaceId(face), Vec3::ONE), 0.15, Effect::Hit(9.0));
+                assert!(history.record(Event::Touch(strip, stroke)));
+                if stroke == 1 {
+                    assert!(other.record(Event::Touch(strip, stroke)));
+                }
+            }
+        }
+        if step == 40 {
+            let rain = Environment { rain: Vec3::NEG_Y, ..Environment::default() };
+            for history in [&mut history, &mut other] {
+                assert!(history.record(Event::Environment(rain)));
+            }
+        }
+        for history in [&mut history, &mut other] {
+            history.step().expect("a step");
+        }
+    }
+    let all = history.film().digest();
+    let taken = history.undo().expect("a way").expect("a stroke");
+    assert_eq!(taken.len(), 1);
+    assert_eq!(history.film().digest(), other.film().digest(), "as if the second stroke had never been");
+    let first = history.undo().expect("a way").expect("a stroke");
+    assert_eq!((first.len(), history.undo().expect("no way")), (2, None));
+    history.redo(&first).expect("a way");
+    assert_eq!(history.film().digest(), other.film().digest());
+    history.redo(&taken).expect("a way");
+    assert_eq!(history.film().digest(), all);
+    history.seek(25).expect("the past");
+    history.seek(60).expect("the future");
+    assert_eq!(history.film().digest(), all);
 }
 
 #[test]

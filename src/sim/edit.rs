@@ -110,7 +110,7 @@ pub fn strip_face(
 }
 
 /// Does an edit and lets all other parts follow it. Returns whether anything was edited.
-fn edit(
+pub(crate) fn edit(
     mut parts: FilmParts,
     settings: &CoatingSettings,
     environment: &Environment,
@@ -124,6 +124,24 @@ fn edit(
         stain::update_stains(parts.mesh, parts.stains, changes, environment.gravity);
     }
     edited
+}
+
+impl FilmParts<'_> {
+    /// Makes `faces` new, one entry for each face of the film: those that are gone come back, cracks between them
+    /// close, and they lie on the metal at rest, clean and with the forces of fresh paint. Returns whether the film is
+    /// another one now; it stays as it is if none of these faces has anything to mend, or if its parts were changed by
+    /// hand so that no fresh film is known.
+    pub(crate) fn renew(&mut self, settings: &CoatingSettings, environment: &Environment, faces: Vec<bool>) -> bool {
+        let renewal = self.mesh.renew(faces, environment.gravity);
+        if self.forces.renew(&renewal, self.clock.age() as f32).is_err() {
+            return false;
+        }
+        let forces = &*self.forces;
+        self.constraints.renew(&renewal, settings, |v| forces.is_attached(v));
+        self.stains.renew(&renewal, environment);
+        *self.mesh = renewal.mesh;
+        true
+    }
 }
 
 impl FilmState {
@@ -144,7 +162,8 @@ impl FilmState {
         found.map(|found| self.changes.append(found)).is_some()
     }
 
-    fn parts(&mut self) -> FilmParts<'_> {
+    /// Returns the parts that an edit changes.
+    pub fn parts(&mut self) -> FilmParts<'_> {
         let Self { mesh, forces, constraints, stains, clock, scratch, .. } = self;
         FilmParts { mesh, forces, constraints, stains, clock, scratch }
     }

@@ -14,7 +14,7 @@ impl FilmState {
     /// time proportional to the size of the film.
     ///
     /// - The live faces of every vertex are one fan, and twins share their ends.
-    /// - Both ends of a torn edge have separated.
+    /// - Both ends of a torn edge have separated, but where new paint ends.
     /// - An attached vertex has not moved, and no vertex lies below the plane of its rest position.
     /// - A stripped face is bound to no other, and a crack tip has exactly one torn edge.
     /// - Predictions, connected pieces, constraints and the rust budget agree with the film.
@@ -55,7 +55,8 @@ impl FilmState {
             }
         }
         for h in topology.all_half_edges().filter(|&h| topology.is_torn(h)) {
-            if forces.is_attached(topology.origin(h)) || forces.is_attached(topology.target(h)) {
+            let holds = |v: VertexId| forces.is_attached(v) && !forces.is_rebound(v);
+            if holds(topology.origin(h)) || holds(topology.target(h)) {
                 return Err(InvariantError::TornAttached(h));
             }
         }

@@ -22,7 +22,7 @@ use crate::{
 
 /// Format of snapshots. Another version for every change of what is saved, in which order, or of what is expected of
 /// it.
-pub(super) const SNAPSHOT: Kind = Kind { magic: *b"bvcoat", version: 1 };
+pub(super) const SNAPSHOT: Kind = Kind { magic: *b"bvcoat", version: 2 };
 
 /// State of a film at one moment, as bytes: all that decides what becomes of it, to the bit.
 ///

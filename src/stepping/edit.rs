@@ -15,9 +15,10 @@ use bevy::{
 use super::report::FilmInWorld;
 use crate::{
     api::{
+        debris::FallenPieces,
         film_pace::FilmPace,
-        links::FilmSource,
-        messages::{FirstCrack, PieceFallen},
+        links::{CoatedBy, FilmSource},
+        messages::{FilmRepainted, FirstCrack, PieceFallen},
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -30,6 +31,7 @@ use crate::{
     },
     stain::StainFields,
     timeline::{FilmHistory, FilmJourney, Goal},
+    touch::{Touch, Touched, touch},
 };
 
 /// Edit of a film by a game, as a command for the film's entity. All parts of the film follow it, and it is told and
@@ -61,12 +63,15 @@ use crate::{
 /// app.add_systems(Update, knock);
 /// app.update();
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmEdit {
     /// Tears the edge of a half-edge and separates its ends from the metal; see [`tear_edge`].
     TearEdge(HalfEdgeId),
     /// Cuts out a face and removes it; see [`strip_face`].
     StripFace(FaceId),
+    /// A brush or a blow at a place of the film; see [`touch`](crate::touch::touch()). The number is that of the stroke
+    /// which the touch is part of. [`TouchCommands`](crate::TouchCommands) finds the place.
+    Touch(Touch, u32),
 }
 
 impl EntityCommand for FilmEdit {
@@ -87,14 +92,18 @@ fn edit_film(
     In((entity, edit)): In<(Entity, FilmEdit)>,
     mut films: Query<(
         (&mut FilmMesh, &mut FilmForces, &mut FilmConstraints, &mut StainFields, &FilmClock, &mut StepScratch),
-        (&mut FilmPace, &mut DisplayChanges, &FilmSource, &GlobalTransform, Option<&mut FilmHistory>),
+        (&mut FilmPace, &mut DisplayChanges, &FilmSource, &CoatedBy, &GlobalTransform),
+        (Option<&mut FilmHistory>, Option<&mut FallenPieces>),
     )>,
     journeys: Query<&FilmJourney>,
     mut commands: Commands,
     mut cracks: MessageWriter<FirstCrack>,
     mut pieces: MessageWriter<PieceFallen>,
+    mut repainted: MessageWriter<FilmRepainted>,
 ) {
-    let Ok((film, (mut pace, mut display, source, transform, history))) = films.get_mut(entity) else {
+    let Ok((film, (mut pace, mut display, source, coated_by, transform), (history, mut fallen))) =
+        films.get_mut(entity)
+    else {
         warn!("entity {entity} has no film that could be edited");
         return;
     };
@@ -111,12 +120,27 @@ fn edit_film(
     let changes = match edit {
         FilmEdit::TearEdge(edge) => tear_edge(parts, &pace.settings, &pace.environment, edge),
         FilmEdit::StripFace(face) => strip_face(parts, &pace.settings, &pace.environment, face),
+        FilmEdit::Touch(with, _) => match touch(parts, &pace.settings, &pace.environment, &with) {
+            Ok(Touched { changes, renewed }) => {
+                if renewed {
+                    display.bypass_change_detection().restart();
+                    pace.cracked = forces.torn_edges > 0;
+                    repainted.write(FilmRepainted::of(entity, coated_by.0, &mesh, &forces));
+                }
+                Some(changes)
+            }
+            Err(error) => {
+                warn!("film {entity} stays as it is: {error}");
+                None
+            }
+        },
     };
     let Some(changes) = changes else { return };
     if let Some(mut history) = history {
         let event = match edit {
             FilmEdit::TearEdge(edge) => Event::TearEdge(edge),
             FilmEdit::StripFace(face) => Event::StripFace(face),
+            FilmEdit::Touch(with, stroke) => Event::Touch(with, stroke),
         };
         history.record(clock.steps, event);
     }
@@ -125,6 +149,6 @@ fn edit_film(
         commands.entity(entity).try_remove::<FilmJourney>();
     }
     let film = FilmInWorld { entity, mesh: &mesh, clock, source, transform };
-    film.tell(&mut pace.cracked, &changes, &mut cracks, &mut pieces);
+    film.tell(&mut pace.cracked, &changes, fallen.as_deref_mut(), &mut cracks, &mut pieces);
     display.bypass_change_detection().record(&changes, &stains);
 }

@@ -14,6 +14,7 @@ mod report;
 mod runner;
 mod schedule;
 mod systems;
+mod touch;
 
 pub(crate) use budget::{StepCost, bounds};
 pub(crate) use checks::{check_clock, check_weather};
@@ -22,3 +23,4 @@ pub(crate) use follow::follow_coatings;
 pub(crate) use reached::ReachedPace;
 pub(crate) use runner::advance;
 pub(crate) use schedule::add_step_schedule;
+pub use touch::{TouchAt, TouchCommands};

@@ -13,6 +13,7 @@ use bevy::{
 
 use crate::{
     api::{
+        debris::FallenPieces,
         diagnostics::CoatingTimings,
         film_pace::FilmPace,
         links::FilmSource,
@@ -36,18 +37,19 @@ pub(super) fn report(
         &FilmSource,
         &GlobalTransform,
         &mut DisplayChanges,
+        Option<&mut FallenPieces>,
     )>,
     mut cracks: MessageWriter<FirstCrack>,
     mut pieces: MessageWriter<PieceFallen>,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::Other, || {
-        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut display) in &mut films {
+        for (entity, mut pace, mesh, clock, changes, stains, source, transform, mut display, mut fallen) in &mut films {
             if !pace.due {
                 continue;
             }
             let film = FilmInWorld { entity, mesh, clock, source, transform };
-            film.tell(&mut pace.cracked, changes, &mut cracks, &mut pieces);
+            film.tell(&mut pace.cracked, changes, fallen.as_deref_mut(), &mut cracks, &mut pieces);
             display.bypass_change_detection().record(changes, stains);
         }
     });
@@ -68,6 +70,7 @@ impl FilmInWorld<'_> {
         &self,
         cracked: &mut bool,
         changes: &FilmChanges,
+        fallen: Option<&mut FallenPieces>,
         cracks: &mut MessageWriter<FirstCrack>,
         pieces: &mut MessageWriter<PieceFallen>,
     ) {
@@ -77,6 +80,10 @@ impl FilmInWorld<'_> {
             let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
             let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
             cracks.write(FirstCrack { entity, age: clock.age(), position: self.point((a + b) / 2.0) });
+        }
+        if let Some(fallen) = fallen.filter(|_| !changes.debris.is_empty()) {
+            fallen.faces.extend_from_slice(&changes.removed);
+            fallen.counts.extend(changes.debris.iter().map(|debris| debris.faces));
         }
         let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
         for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {

@@ -48,6 +48,10 @@ pub struct FilmHistory {
     exposure: Exposure,
     /// Farthest step that the film has come to since something was changed.
     last: u64,
+    /// Strokes that were taken back, the last one at the end, with their numbers.
+    undone: Vec<(u32, Vec<LogEntry>)>,
+    /// Whether the log says another past than the film has had, so that it has to be gone through again.
+    rewritten: bool,
     /// Keyframe that is being written.
     writing: Option<Task<Result<Keyframe, SnapshotError>>>,
 }
@@ -62,7 +66,8 @@ impl FilmHistory {
     /// Makes the history of a film that is at `step` under these conditions.
     pub(super) fn new(past: Past, now: Conditions, quality: SolverQuality, exposure: Exposure, step: u64) -> Self {
         let last = past.keyframes().last_step().max(past.log().last().map_or(0, |entry| entry.step)).max(step);
-        Self { settings: Arc::new(now.settings.clone()), past, now, quality, exposure, last, writing: None }
+        let (settings, undone) = (Arc::new(now.settings.clone()), Vec::new());
+        Self { settings, past, now, quality, exposure, last, undone, rewritten: false, writing: None }
     }
 
     /// Returns the history of a copy of the film.
@@ -74,6 +79,8 @@ impl FilmHistory {
             quality: self.quality,
             exposure: self.exposure.clone(),
             last: self.last,
+            undone: Vec::new(),
+            rewritten: self.rewritten,
             writing: None,
         }
     }
@@ -111,6 +118,9 @@ impl FilmHistory {
     /// Logs `event`, which happens to the film at `step`.
     pub(crate) fn record(&mut self, step: u64, event: Event) {
         self.now.follow(&event);
+        if matches!(event, Event::Touch(..)) {
+            self.undone.clear();
+        }
         self.past.record(step, event);
         self.last = step;
         // A keyframe of the future that was. One of the present is missed only.
@@ -138,9 +148,43 @@ impl FilmHistory {
         }
     }
 
-    /// Takes over how far the film has been with the history `other`, from which this one comes.
-    pub(super) fn has_been_at(&mut self, other: &Self) {
+    /// Takes over how far the film has been with the history `other`, from which this one comes, and what was taken
+    /// back in it.
+    pub(super) fn has_been_at(&mut self, other: &mut Self) {
         self.last = self.last.max(other.last);
+        self.undone = std::mem::take(&mut other.undone);
+    }
+
+    /// Returns the number of the last stroke that touched the film.
+    pub fn last_stroke(&self) -> Option<u32> {
+        self.past.last_stroke()
+    }
+
+    /// Returns the number of the stroke that was taken back last.
+    pub fn last_undone(&self) -> Option<u32> {
+        self.undone.last().map(|&(stroke, _)| stroke)
+    }
+
+    /// Takes back the last stroke if it is `stroke`. The film follows at once in the background.
+    pub(crate) fn undo(&mut self, stroke: u32) {
+        if self.past.last_stroke() == Some(stroke) {
+            let taken = self.past.take_stroke(stroke);
+            self.undone.push((stroke, taken));
+            (self.rewritten, self.writing) = (true, None);
+        }
+    }
+
+    /// Lets the stroke happen again that was taken back last, if it is `stroke`.
+    pub(crate) fn redo(&mut self, stroke: u32) {
+        if let Some((_, taken)) = self.undone.pop_if(|(undone, _)| *undone == stroke) {
+            self.past.put_stroke(&taken);
+            (self.rewritten, self.writing) = (true, None);
+        }
+    }
+
+    /// Returns whether the film has to go through its log again.
+    pub(super) fn is_rewritten(&self) -> bool {
+        self.rewritten
     }
 
     /// Returns whether a film at `step` is as far as it has ever been.

@@ -12,10 +12,11 @@ use super::{film_history::FilmHistory, whole_film::WholeFilm};
 use crate::{
     api::{diagnostics::CoatingTimings, film_pace::FilmPace},
     appearance::DisplayChanges,
-    history::Conditions,
+    history::{Conditions, Event},
     settings::CoatingSettings,
     sim::{FilmClock, Stage},
     stain::StainFields,
+    touch::{Effect, Touch},
 };
 
 /// Notes the conditions of the step that is about to be taken. It runs before the step is counted.
@@ -59,7 +60,13 @@ pub(crate) fn keep_past(
                     conditions.apply(state, edit);
                 }
             });
-            display.bypass_change_detection().mark_everything();
+            // New paint gives vertices other numbers.
+            let renews = |edit: &Event| matches!(edit, Event::Touch(Touch { effect: Effect::Repaint, .. }, _));
+            if edits.iter().any(renews) {
+                display.bypass_change_detection().restart();
+            } else {
+                display.bypass_change_detection().mark_everything();
+            }
         }
     });
 }

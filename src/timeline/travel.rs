@@ -168,6 +168,11 @@ impl TravellerItem<'_, '_> {
             return Some(journey::stay(film.state(), conditions(), bytes));
         }
         let step = film.clock.steps;
+        if let Some(history) = history.as_ref().filter(|history| history.is_rewritten()) {
+            let goal = film.clock.goal.unwrap_or(step);
+            // As from the end of time, so that it begins at a keyframe whatever the goal.
+            return Some(journey::go_through(&history.past, &history.now, u64::MAX, || film.state(), goal));
+        }
         let goal = film.clock.goal?;
         match history {
             Some(history) => {
@@ -208,7 +213,7 @@ impl TravellerItem<'_, '_> {
         if let Goal::Step(step) = goal {
             // A film that came as near to its goal as its history reaches has come to it.
             film.clock.goal = film.clock.goal.filter(|&goal| goal != step);
-            if let (Some(old), Some(new)) = (&history, &mut new) {
+            if let (Some(old), Some(new)) = (history.as_mut(), &mut new) {
                 new.has_been_at(old);
             }
         }

@@ -11,25 +11,26 @@ use crate::{
 };
 
 /// Rooms (files and folders of `src`) from the lowest upwards. Those of one rung may import from each other, one way.
-const LADDER: [&[&str]; 14] = [
+const LADDER: [&[&str]; 15] = [
     &["coding", "files"],
     &["settings", "film"],
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
     &["sim"],
+    &["touch"],
     &["snapshot"],
     &["history"],
     &["appearance"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "shelter", "timeline", "stepping", "attach"],
+    &["display", "shelter", "timeline", "stepping", "attach", "pointing", "debris"],
     &["plugin"],
     &["prelude"],
     &["lib"],
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 14] = [
+const CORE: [&str; 15] = [
     "coding",
     "files",
     "settings",
@@ -40,6 +41,7 @@ const CORE: [&str; 14] = [
     "deform",
     "stain",
     "sim",
+    "touch",
     "snapshot",
     "history",
     "appearance",

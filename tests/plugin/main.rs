@@ -49,4 +49,5 @@ mod stains_material;
 #[cfg(feature = "render")]
 mod stains_picture;
 mod timeline;
+mod touch;
 mod units;

@@ -25,7 +25,7 @@ use super::{
     sleep::SleepMarks,
 };
 use crate::{
-    film::{FaceId, FilmMesh, HalfEdgeId, LoosePieces, Topology, VertexId},
+    film::{FaceId, FilmMesh, Geometry, HalfEdgeId, LoosePieces, Topology, VertexId},
     settings::DeformSettings,
 };
 
@@ -147,16 +147,41 @@ impl FilmConstraints {
     /// Puts a bend constraint on the edge of `h`, starting at the current angle; none twice, and none on an
     /// edge that is torn or at the border.
     pub(super) fn ensure_bend(&mut self, mesh: &FilmMesh, h: HalfEdgeId) {
+        self.ensure_bend_at(mesh, h, None);
+    }
+
+    /// Puts a bend constraint on the edge of `h` as [`ensure_bend`](Self::ensure_bend) does, with the angle at which it
+    /// began and its target (radians) if they are known.
+    pub(super) fn ensure_bend_at(&mut self, mesh: &FilmMesh, h: HalfEdgeId, angles: Option<[f32; 2]>) {
         let Some(twin) = mesh.topology.bound_twin(h) else { return };
         let carrier = h.min(twin);
         if self.ledger.bends().has(carrier) || !mesh.topology.is_live(carrier.face()) {
             return;
         }
-        self.ledger.add_bend(carrier, angle_now(mesh, carrier));
+        self.ledger.add_bend(carrier, angles.unwrap_or_else(|| [angle_now(mesh, carrier); 2]));
         self.packed.unpark_bend(&mut self.ledger, mesh, carrier);
         // Its target is about to narrow.
         for v in bend_points(&mesh.topology, carrier) {
             self.wake(mesh, VertexId(v));
+        }
+    }
+
+    /// Returns the angle at which the bend that `h` carries began, and its target, in radians. `topology` is that of
+    /// the film at any time.
+    pub(super) fn angles_of(&self, topology: &Topology, h: HalfEdgeId) -> Option<[f32; 2]> {
+        let target = self.packed.target(&self.ledger, topology, h)?;
+        Some([self.ledger.start(h), target])
+    }
+
+    /// Takes over the settings and the quality of the last step of `other`.
+    pub(super) fn settings_of(&mut self, other: &Self) {
+        self.settings.clone_from(&other.settings);
+    }
+
+    /// Puts all points where the film is, at rest.
+    pub(super) fn place_points(&mut self, geometry: &Geometry) {
+        for (v, &p) in geometry.positions.iter().enumerate() {
+            self.packed.points_mut().put(v, p, p);
         }
     }
 

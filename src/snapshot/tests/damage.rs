@@ -113,7 +113,7 @@ fn other_versions_and_other_films_are_named() {
     let mut bytes = saved.as_bytes().to_vec();
     bytes[6] += 1;
     let error = Snapshot::from_bytes(bytes).expect_err("another version").to_string();
-    assert!(error.contains("version 2") && error.contains("reads version 1"), "{error}");
+    assert!(error.contains("version 3") && error.contains("reads version 2"), "{error}");
 
     let settings = CoatingSettings::default();
     let other = Snapshot::of(&plate(302, &settings, 3, 100)).expect("a snapshot");
