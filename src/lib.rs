@@ -142,6 +142,7 @@ pub mod stain;
 #[cfg(feature = "plugin")]
 mod stepping;
 pub mod surface;
+pub mod survey;
 #[cfg(feature = "plugin")]
 mod timeline;
 

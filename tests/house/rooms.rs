@@ -17,7 +17,7 @@ const LADDER: [&[&str]; 14] = [
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
     &["sim"],
-    &["snapshot"],
+    &["snapshot", "survey"],
     &["history"],
     &["appearance"],
     &["bake"],
@@ -29,7 +29,7 @@ const LADDER: [&[&str]; 14] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 14] = [
+const CORE: [&str; 15] = [
     "coding",
     "files",
     "settings",
@@ -41,6 +41,7 @@ const CORE: [&str; 14] = [
     "stain",
     "sim",
     "snapshot",
+    "survey",
     "history",
     "appearance",
     "bake",
