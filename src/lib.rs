@@ -128,6 +128,8 @@ pub mod fracture;
 pub mod guide;
 pub mod history;
 #[cfg(feature = "plugin")]
+mod inspect;
+#[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "plugin")]
 mod plugin;
@@ -158,14 +160,15 @@ pub use api::{
     film_pace::FilmPace,
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
-    links::{CoatedBy, CoatedMesh, CoatingPart},
-    messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
+    links::{CoatedBy, CoatedMesh, CoatingFilms, CoatingPart},
+    messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
     snapshot::{CoatingSnapshot, SaveError, SavedFilm},
     stain_display::StainDisplay,
     status::CoatingStatus,
+    summary::FilmSummary,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
     unit::CoatingUnit,
     weather::CoatingWeather,
@@ -174,6 +177,8 @@ pub use api::{
 pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 #[cfg(feature = "render")]
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+#[cfg(feature = "plugin")]
+pub use inspect::{FilmHit, FilmQuery};
 #[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "plugin")]

@@ -22,7 +22,7 @@ const LADDER: [&[&str]; 14] = [
     &["appearance"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "shelter", "timeline", "stepping", "attach"],
+    &["display", "inspect", "shelter", "timeline", "stepping", "attach"],
     &["plugin"],
     &["prelude"],
     &["lib"],
