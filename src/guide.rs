@@ -6,6 +6,7 @@
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
 //! | [`baking`] | ageing model files without an engine |
+//! | [`ratings`] | what lies where on a film, shares by area, ratings by ISO and ASTM |
 //! | [`saving`] | saving and restoring films, going back in time, props that come late |
 //! | [`performance`] | measured times, quality levels |
 //! | [`bad_input`] | what happens to input that is wrong, and the test of each kind |
@@ -22,6 +23,7 @@ macro_rules! links {
 [settings]: crate::guide::settings
 [stains]: crate::guide::stains
 [baking]: crate::guide::baking
+[ratings]: crate::guide::ratings
 [saving]: crate::guide::saving
 [performance]: crate::guide::performance
 [limits]: crate::guide::limits
@@ -48,6 +50,11 @@ pub mod stains {}
 #[doc = links!()]
 #[doc = include_str!("../docs/baking.md")]
 pub mod baking {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/ratings.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod ratings {}
 
 #[doc = links!()]
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/saving.md"))]

@@ -130,6 +130,8 @@ pub mod fracture;
 pub mod guide;
 pub mod history;
 #[cfg(feature = "plugin")]
+mod inspect;
+#[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "plugin")]
 mod plugin;
@@ -146,6 +148,7 @@ pub mod stain;
 #[cfg(feature = "plugin")]
 mod stepping;
 pub mod surface;
+pub mod survey;
 #[cfg(feature = "plugin")]
 mod timeline;
 pub mod touch;
@@ -163,14 +166,15 @@ pub use api::{
     film_pace::FilmPace,
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
-    links::{CoatedBy, CoatedMesh, CoatingPart},
-    messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RestoreFailed},
+    links::{CoatedBy, CoatedMesh, CoatingFilms, CoatingPart},
+    messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
     snapshot::{CoatingSnapshot, SaveError, SavedFilm},
     stain_display::StainDisplay,
     status::CoatingStatus,
+    summary::FilmSummary,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
     unit::CoatingUnit,
     weather::CoatingWeather,
@@ -180,9 +184,11 @@ pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 #[cfg(feature = "render")]
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 #[cfg(feature = "plugin")]
+pub use inspect::{FilmHit, FilmQuery};
+#[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "tools")]
-pub use pointing::{BrushGizmos, CoatingBrush, CoatingPointingPlugin, FilmHit};
+pub use pointing::{BrushGizmos, CoatingBrush, CoatingPointingPlugin};
 #[cfg(feature = "plugin")]
 pub use settings::asset::{CoatingSettingsLoader, CoatingSettingsLoaderError, CoatingSettingsPlugin};
 #[cfg(feature = "plugin")]

@@ -14,7 +14,7 @@ use crate::{
         calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
-        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RestoreFailed},
+        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
         status::CoatingStatus,
         system_sets::CoatingAdvance,
         unit::CoatingUnit,
@@ -91,6 +91,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .add_message::<FirstCrack>()
             .add_message::<PieceFallen>()
             .add_message::<FilmRepainted>()
+            .add_message::<RatingReached>()
             .add_message::<AgeReached>()
             .add_message::<RestoreFailed>();
         diagnostics::add_diagnostics(app);

@@ -44,10 +44,44 @@ use crate::settings::CoatingSettings;
 /// app.add_systems(Update, print_ages);
 /// app.update();
 /// ```
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
-#[component(clone_behavior = Ignore)]
-#[reflect(Debug, Clone, PartialEq)]
+// A relationship that could be cloned or reflected would be cloned with its film.
+#[derive(Component, Debug, PartialEq, Eq)]
+#[relationship(relationship_target = CoatingFilms, allow_self_referential)]
 pub struct CoatedBy(pub Entity);
+
+/// Films of a coating, on the entity with the [`Coating`](super::coating::Coating): those that are ready and those that
+/// are being built. Where the coating is on a mesh, the film is on the same entity.
+///
+/// It is there as long as there are films, and follows [`CoatedBy`]. It is neither cloned nor saved with a scene.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// /// Prints how each prop is doing.
+/// fn print_ratings(props: Query<(&Name, &CoatingFilms)>, films: Query<&FilmSummary>) {
+///     for (name, own) in &props {
+///         for summary in films.iter_many(own.films()) {
+///             info!("{name}: {}", summary.ratings);
+///         }
+///     }
+/// }
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, print_ratings);
+/// app.update();
+/// ```
+#[derive(Component, Debug, Default, PartialEq, Eq)]
+#[relationship_target(relationship = CoatedBy)]
+pub struct CoatingFilms(Vec<Entity>);
+
+impl CoatingFilms {
+    /// Returns the entities of the films.
+    pub fn films(&self) -> &[Entity] {
+        &self.0
+    }
+}
 
 /// Marker of the entities that the plugin spawns to draw the backs of flakes and the bare metal. They are children of
 /// the entities of the prop's meshes, and have their render layers, shadow flags and visibility.

@@ -13,6 +13,7 @@ use crate::{
     fracture::FilmForces,
     snapshot::SnapshotError,
     surface::BuildWarning,
+    survey::Rating,
 };
 
 /// Message that a film has been built and its prop shows it.
@@ -114,6 +115,44 @@ pub struct FirstCrack {
     pub age: f64,
     /// Middle of the edge, in world space.
     pub position: Vec3,
+}
+
+/// Message that a rating of a film has got worse by a class or more: its rust, its flaking or its cracking. There is one
+/// for each rating.
+///
+/// It is not sent for ratings with which a film appears, nor when a film goes back in time; afterwards it tells of
+/// ratings anew. The film's [`FilmSummary`](super::summary::FilmSummary) has all figures.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::{prelude::*, survey::{Rating, RustGrade}};
+///
+/// fn warn_of_rust(mut ratings: MessageReader<RatingReached>) {
+///     for reached in ratings.read() {
+///         if reached.rating == Rating::Rust(RustGrade::Ri3) {
+///             info!("{} needs new paint at age {:.2}", reached.root, reached.age);
+///         }
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, warn_of_rust);
+/// app.update();
+/// ```
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
+pub struct RatingReached {
+    /// Entity of the film.
+    pub entity: Entity,
+    /// Entity with the film's `Coating`.
+    pub root: Entity,
+    /// Age of the film: 0 is fresh.
+    pub age: f64,
+    /// The rating now.
+    pub rating: Rating,
+    /// The worst rating of the same kind before.
+    pub before: Rating,
 }
 
 /// Message that a piece of paint has fallen off.

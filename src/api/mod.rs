@@ -25,6 +25,7 @@ pub(crate) mod snapshot;
 pub(crate) mod stain_display;
 pub(crate) mod status;
 pub(crate) mod step_account;
+pub(crate) mod summary;
 pub(crate) mod system_sets;
 pub(crate) mod unit;
 pub(crate) mod weather;

@@ -19,6 +19,7 @@ use crate::{
         film_pace::FilmPace,
         links::{CoatedBy, CoatedMesh, CoatingPart, FilmSlot, FilmSource},
         messages::FilmReady,
+        summary::{FilmSummary, FilmSurveyed},
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -181,6 +182,7 @@ fn copy_film(world: &mut World, group: &[Copied]) {
     }
     let Ok(mut entity) = world.get_entity_mut(film) else { return };
     entity.insert(film_parts).insert((scratch, pace, shown, shelter, source, display, CoatedBy(root)));
+    entity.insert((FilmSurveyed::default(), FilmSummary::default()));
     if let Some(history) = history {
         entity.insert(history);
     }

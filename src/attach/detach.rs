@@ -23,6 +23,7 @@ use crate::{
             AwaitingFilm, CoatedBy, CoatedMesh, CoatingPart, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone,
         },
         snapshot::CoatingSnapshot,
+        summary::{FilmSummary, FilmSurveyed},
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -39,7 +40,7 @@ use crate::{
 pub(super) type FilmComponents = (
     (FilmMesh, FilmForces, FilmConstraints, StainFields, FilmClock, FilmChanges, StepScratch),
     (CoatedBy, FilmPace, FilmShelter, DisplayChanges, FilmSource, FilmOutdated, FilmBuild, FilmDisplay),
-    (FilmHistory, FilmJourney, FilmWish),
+    (FilmHistory, FilmJourney, FilmWish, FilmSurveyed, FilmSummary),
 );
 
 /// Takes off the film on entity `film`, whether it is ready or being built. Its meshes are marked as changed, so that

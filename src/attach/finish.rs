@@ -30,6 +30,7 @@ use crate::{
             AwaitingFilm, CoatedBy, CoatedMesh, FilmOutdated, FilmRefused, FilmSlot, FilmSource, LeftAlone, RefusedKey,
         },
         messages::{FilmFailed, FilmReady, RestoreFailed},
+        summary::{FilmSummary, FilmSurveyed},
     },
     appearance::DisplayChanges,
     sim::{FilmClock, FilmState},
@@ -135,6 +136,7 @@ fn put_on(
         .try_remove::<FilmBuild>()
         .try_insert((mesh, forces, constraints, stains, clock, changes, scratch))
         .try_insert((pace, shelter, DisplayChanges::default(), source, display))
+        .try_insert((FilmSurveyed::default(), FilmSummary::default()))
         .try_insert(CoatedBy(root));
     if let Some(history) = history {
         commands.entity(film).try_insert(history);

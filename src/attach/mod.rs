@@ -32,10 +32,12 @@ use bevy::{
 
 use crate::{
     api::system_sets::CoatingAttach,
+    inspect,
     shelter::{self, ShelterScene, ShelteredFilms},
 };
 
-/// Adds the systems that put films on props, and the survey of shelters between them.
+/// Adds the systems that put films on props, the survey of shelters between them, and that of films in the
+/// end.
 pub(crate) fn add_attachment(app: &mut App) {
     app.configure_sets(PostUpdate, CoatingAttach.after(TransformSystems::Propagate));
     app.init_resource::<ShelterScene>().init_resource::<ShelteredFilms>();
@@ -51,6 +53,7 @@ pub(crate) fn add_attachment(app: &mut App) {
             shelter::survey,
             begin::begin_builds,
             shelter::cast,
+            inspect::survey_changed,
         )
             .chain()
             .in_set(CoatingAttach),

@@ -10,7 +10,7 @@ use bevy::{
 use crate::{
     api::{
         coating::{Coating, SettingsSource},
-        links::{AwaitingFilm, CoatedBy, FilmRefused, FilmSlot, LeftAlone, Suspects},
+        links::{AwaitingFilm, CoatedBy, CoatingFilms, FilmRefused, FilmSlot, LeftAlone, Suspects},
         unit::CoatingUnit,
     },
     settings::CoatingSettings,
@@ -47,12 +47,13 @@ fn bits_of(source: &SettingsSource) -> (Option<AssetId<CoatingSettings>>, Vec<u3
 }
 
 /// Returns the components with which the plugin itself marks meshes.
-fn own_components(world: &World) -> [Option<ComponentId>; 5] {
+fn own_components(world: &World) -> [Option<ComponentId>; 6] {
     [
         world.component_id::<AwaitingFilm>(),
         world.component_id::<FilmRefused>(),
         world.component_id::<LeftAlone>(),
         world.component_id::<FilmSlot>(),
         world.component_id::<CoatedBy>(),
+        world.component_id::<CoatingFilms>(),
     ]
 }

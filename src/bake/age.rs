@@ -12,13 +12,16 @@ use super::{
     parallel,
     progress::Progress,
     shelter::shelter,
-    stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats},
+    stats::{FilmStats, InputStats, RatedAge, RunStats, STATS_SCHEMA, Stats, UntilStats},
     stopwatch::Stopwatch,
     warning::BakeWarning,
 };
-use crate::sim::{FilmMeasures, FilmState, StageTimes};
+use crate::{
+    sim::{FilmMeasures, FilmState, StageTimes},
+    survey::UntilWatch,
+};
 
-/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`]. `stopwatch` has run since before the
+/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`], or until [`BakeOptions::until`]. `stopwatch` has run since before the
 /// model was read.
 ///
 /// ```
@@ -56,7 +59,11 @@ pub fn bake(
     stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
     let film = FilmStats::of(&films, &options.settings.scale);
-    let timeline = age(&mut films, options, &mut stopwatch, progress);
+    let Aged { timeline, ratings, reached } = age(&mut films, options, &mut stopwatch, progress);
+    let until = options.until.zip(ratings.last()).map(|(goal, last)| UntilStats { goal, reached, age: last.age });
+    if let (Some(UntilStats { goal: until, reached: false, age }), Some(last)) = (&until, ratings.last()) {
+        warnings.push(BakeWarning::NotReached { until: *until, age: *age, ratings: last.ratings });
+    }
     for (film, prop) in films.iter().zip(&props) {
         film.validate().map_err(|cause| BakeError::Broken {
             origin: origin.clone(),
@@ -73,9 +80,11 @@ pub fn bake(
         preset: options.preset.clone(),
         sweeps_per_age: options.settings.deform.sweeps_per_age,
         quality: options.quality.name().into(),
+        until,
     };
     let digest = hasher.finalize().to_hex().to_string();
-    let stats = Stats { schema: STATS_SCHEMA, input, film, run, seconds: stopwatch.seconds(), timeline, digest };
+    let seconds = stopwatch.seconds();
+    let stats = Stats { schema: STATS_SCHEMA, input, film, run, seconds, timeline, ratings, digest };
     let detail = options.detail;
     Ok(Baked { origin, copyright, props, films, materials, warnings, carried, left, detail, stopwatch, stats })
 }
@@ -87,34 +96,62 @@ fn timeline_ages(age: f64) -> Vec<f64> {
     ages
 }
 
-/// Ages the films, measuring them at every age of the timeline.
-fn age(
+/// What was measured while films were aged.
+#[derive(Default)]
+struct Aged {
+    timeline: Vec<FilmMeasures>,
+    ratings: Vec<RatedAge>,
+    /// Whether the films have come to the condition.
+    reached: bool,
+}
+
+/// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the condition.
+fn age(films: &mut [FilmState], options: &BakeOptions, stopwatch: &mut Stopwatch, progress: &dyn Progress) -> Aged {
+    let mut aged = Aged::default();
+    let Some(clock) = films.first().map(|film| film.clock) else { return aged };
+    let faces: u64 = films.iter().map(|film| film.mesh.topology.face_count() as u64).sum();
+    progress.begin(faces * clock.step_at(options.age));
+    let mut watch = options.until.map(UntilWatch::new);
+    for age in timeline_ages(options.age) {
+        let step = clock.step_at(age);
+        loop {
+            aged.reached = watch.as_mut().is_some_and(|watch| watch.is_reached(films));
+            let now = films.first().map_or(step, |film| film.clock.steps);
+            if aged.reached || now >= step {
+                break;
+            }
+            take_steps(films, step, options, stopwatch, progress);
+        }
+        aged.timeline.push(FilmState::measure_all(films));
+        aged.ratings.push(RatedAge::of(films));
+        if aged.reached {
+            break;
+        }
+    }
+    aged
+}
+
+/// Takes all films to `step`, or only to the next tick where a condition is looked for.
+fn take_steps(
     films: &mut [FilmState],
+    step: u64,
     options: &BakeOptions,
     stopwatch: &mut Stopwatch,
     progress: &dyn Progress,
-) -> Vec<FilmMeasures> {
-    let Some(clock) = films.first().map(|film| film.clock) else { return Vec::new() };
-    let faces: u64 = films.iter().map(|film| film.mesh.topology.face_count() as u64).sum();
-    progress.begin(faces * clock.step_at(options.age));
-    let mut timeline = Vec::new();
-    for age in timeline_ages(options.age) {
-        let step = clock.step_at(age);
-        let start = Instant::now();
-        let mut runs: Vec<_> = films.iter_mut().map(|film| (film, StageTimes::default())).collect();
-        parallel::for_each(&mut runs, |(film, times)| {
-            let work = film.mesh.topology.face_count() as u64;
-            while film.clock.steps < step {
-                film.step_timed(&options.settings, &options.environment, times);
-                progress.advance(work);
-            }
-        });
-        let mut times = StageTimes::default();
-        runs.iter().for_each(|(_, own)| times.merge(own));
-        stopwatch.add_stages(&times, start.elapsed());
-        timeline.push(FilmState::measure_all(films));
-    }
-    timeline
+) {
+    let start = Instant::now();
+    let mut runs: Vec<_> = films.iter_mut().map(|film| (film, StageTimes::default())).collect();
+    parallel::for_each(&mut runs, |(film, times)| {
+        let work = film.mesh.topology.face_count() as u64;
+        let step = if options.until.is_some() { step.min(film.clock.next_tick()) } else { step };
+        while film.clock.steps < step {
+            film.step_timed(&options.settings, &options.environment, times);
+            progress.advance(work);
+        }
+    });
+    let mut times = StageTimes::default();
+    runs.iter().for_each(|(_, own)| times.merge(own));
+    stopwatch.add_stages(&times, start.elapsed());
 }
 
 #[cfg(test)]

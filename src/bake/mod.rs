@@ -94,6 +94,6 @@ pub use output::StagedFiles;
 pub use printable::Printable;
 pub use progress::Progress;
 pub use stain_output::StainOutput;
-pub use stats::{FilmStats, InputStats, RunStats, STATS_SCHEMA, Stats};
+pub use stats::{FilmStats, InputStats, RatedAge, RunStats, STATS_SCHEMA, Stats, UntilStats};
 pub use stopwatch::{Seconds, Stopwatch};
 pub use warning::BakeWarning;

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     appearance::Detail, deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment,
+    survey::Until,
 };
 
 /// Options of ageing.
@@ -39,6 +40,10 @@ pub struct BakeOptions {
     pub preset: String,
     /// Age to reach: 0 to [`MAX_AGE`], default 1, the end of the reference run.
     pub age: f64,
+    /// Condition at which ageing ends before that age, of all films together; default none. It is looked for at every
+    /// hundredth of an age. A warning says if it was not reached
+    /// ([`BakeWarning::NotReached`](super::BakeWarning::NotReached)).
+    pub until: Option<Until>,
     /// Steps per unit age: 1 to [`MAX_STEPS_PER_AGE`], default 1,000.
     pub steps: u32,
     /// How bending is solved.
@@ -62,6 +67,7 @@ impl Default for BakeOptions {
             settings: CoatingSettings::default(),
             preset: "default".into(),
             age: 1.0,
+            until: None,
             steps: 1000,
             quality: SolverQuality::default(),
             seed: 0,

@@ -8,6 +8,7 @@ use crate::{
     film::{FaceId, HalfEdgeId},
     settings::ScaleSettings,
     sim::{FilmMeasures, FilmState},
+    survey::{FilmShares, Ratings, Until},
 };
 
 /// Version of the layout of [`Stats`].
@@ -39,6 +40,8 @@ pub struct Stats {
     pub seconds: Seconds,
     /// Figures of all films together at every twentieth of age, and at the last one.
     pub timeline: Vec<FilmMeasures>,
+    /// Shares by area and ratings of all films together, at the ages of the timeline.
+    pub ratings: Vec<RatedAge>,
     /// Digest of all films in order, in hexadecimal: [`DIGEST_ALGORITHM`](crate::sim::DIGEST_ALGORITHM) over the fields
     /// documented at [`FilmState::digest_into`]. Holds no timings.
     pub digest: String,
@@ -92,6 +95,40 @@ pub struct RunStats {
     pub sweeps_per_age: f32,
     /// Name of the solver's quality.
     pub quality: String,
+    /// Condition that was to be reached, and what became of it; left out if there was none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<UntilStats>,
+}
+
+/// Condition to which films were aged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UntilStats {
+    /// The condition.
+    pub goal: Until,
+    /// Whether the films have come to it.
+    pub reached: bool,
+    /// Age of the films then, or in the end.
+    pub age: f64,
+}
+
+/// Shares and ratings of all films together at one age.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RatedAge {
+    /// Age of the films.
+    pub age: f64,
+    /// Shares by area.
+    pub shares: FilmShares,
+    /// Ratings by the standards for coatings.
+    pub ratings: Ratings,
+}
+
+impl RatedAge {
+    /// Rates films as they are now.
+    pub(super) fn of(films: &[FilmState]) -> Self {
+        let shares = films.iter().fold(FilmShares::default(), |all, film| all.merged(&film.shares()));
+        let age = films.first().map_or(0.0, |film| film.clock.age());
+        Self { age, shares, ratings: Ratings::from(&shares) }
+    }
 }
 
 impl Stats {

@@ -3,7 +3,10 @@
 use std::mem::discriminant;
 
 use super::printable::Printable;
-use crate::surface::{BuildError, BuildWarning};
+use crate::{
+    surface::{BuildError, BuildWarning},
+    survey::{Ratings, Until},
+};
 
 /// Something of a model that was left out, changed or put right. Where it is about one mesh, its text begins with the
 /// name of that, control characters escaped.
@@ -76,6 +79,16 @@ pub enum BakeWarning {
     Glass {
         /// Number of primitives.
         count: usize,
+    },
+    /// The condition of [`BakeOptions::until`](super::BakeOptions::until) was not reached.
+    #[error("{until} was not reached by age {age}: the films are {ratings}; a greater age may do, or other settings")]
+    NotReached {
+        /// The condition.
+        until: Until,
+        /// Age at which ageing ended.
+        age: f64,
+        /// Ratings of the films then.
+        ratings: Ratings,
     },
     /// A pattern of [`BakeOptions::exclude`](super::BakeOptions::exclude) fits no name.
     #[error("no node, mesh or material is called {pattern:?}, so nothing is excluded by it")]

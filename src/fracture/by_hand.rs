@@ -6,7 +6,7 @@ use super::{
     forces::FilmForces,
     scratch::FractureScratch,
     separation::let_go,
-    stripping::{debris, strip},
+    stripping::{debris, strip, strip_if_free},
     tear_edge::tear_edge,
 };
 use crate::{
@@ -101,6 +101,9 @@ pub(crate) fn cut_out(
                 forces.tips[v.index()] = Vec3::ZERO;
             }
         }
+    } else if changes.torn.is_empty() && changes.separated.is_empty() {
+        // It was cut out and loose already, and waited for its time to fall.
+        strip_if_free(mesh, forces, f, changes);
     }
     strip(mesh, forces, &settings.stripping, age, changes, scratch);
     forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);

@@ -102,7 +102,7 @@ impl FilmForces {
 }
 
 /// Strips `f` if all its inner edges are torn and no vertex of it is attached.
-fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &mut FilmChanges) {
+pub(super) fn strip_if_free(mesh: &mut FilmMesh, forces: &FilmForces, f: FaceId, changes: &mut FilmChanges) {
     let corners = mesh.topology.corners(f);
     if mesh.topology.is_cut_out(f) && !corners.iter().any(|&v| forces.is_attached(v)) {
         changes.debris.push(debris(mesh, &[f]));

@@ -16,8 +16,8 @@ use bevy::{
     },
 };
 
-use super::picking::FilmHit;
 use crate::{
+    inspect::FilmHit,
     stepping::{TouchAt, TouchCommands},
     touch::Effect,
 };

@@ -19,12 +19,11 @@ use bevy::{
 };
 
 pub use brush::CoatingBrush;
-pub use picking::FilmHit;
 pub use ring::BrushGizmos;
 
 /// Plugin that lets Bevy's pointers hit films, moved and curled as they are, and paints with a [`CoatingBrush`].
 ///
-/// Hits are on the entities of films, with a [`FilmHit`] as their extra data. Add it after `DefaultPlugins`, with
+/// Hits are on the entities of films, with a [`FilmHit`](crate::FilmHit) as their extra data. Add it after `DefaultPlugins`, with
 /// Bevy's feature `bevy_picking`; the rim of the brush is drawn where Bevy's gizmos are (`bevy_gizmos_render`).
 ///
 /// ```

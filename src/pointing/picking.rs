@@ -24,20 +24,9 @@ use crate::{
     film::FilmMesh,
     fracture::FilmForces,
     stain::StainFields,
-    survey::{FilmPoint, FilmView},
-    touch::Site,
+    inspect::FilmHit,
+    survey::FilmView,
 };
-
-/// What a pointer hits on a film: the [extra data](HitData::extra_as) of Bevy's hits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmHit {
-    /// Entity with the film's `Coating`.
-    pub root: Entity,
-    /// Place on the film.
-    pub site: Site,
-    /// What is there, in world space.
-    pub point: FilmPoint,
-}
 
 /// Everything of a film that a ray asks for.
 type Film<'a> = (
@@ -81,9 +70,8 @@ pub(super) fn hit_films(
             let direction = into_film.transform_vector3(*ray.direction);
             let view = FilmView { mesh, forces, stains, hidden: &source.hidden };
             let Some(point) = view.along_ray(origin, direction, f32::INFINITY) else { continue };
-            let site = Site::new(point.face, point.barycentric);
             let point = point.placed(&place);
-            let hit = FilmHit { root: coated_by.0, site, point };
+            let hit = FilmHit { entity: film, root: coated_by.0, point };
             let (position, normal) = (Some(point.position), Some(point.normal));
             picks.push((film, HitData::new_with_extra(id.camera, point.distance, position, normal, hit)));
         }

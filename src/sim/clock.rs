@@ -113,6 +113,23 @@ impl FilmClock {
         Some((u128::from(self.steps) - last) as f32 * self.dt())
     }
 
+    /// Returns the next step that completes a [tick](Self::tick) of stains.
+    ///
+    /// ```
+    /// use bevy_coating::sim::FilmClock;
+    ///
+    /// let mut clock = FilmClock::new(1000);
+    /// assert_eq!(clock.next_tick(), 10);
+    /// clock.steps = 10;
+    /// assert_eq!(clock.next_tick(), 20);
+    /// ```
+    pub fn next_tick(&self) -> u64 {
+        let (per_age, ticks_per_age) = (u128::from(self.steps_per_age.max(1)), u128::from(TICKS_PER_AGE));
+        let ticks = u128::from(self.steps) * ticks_per_age / per_age;
+        let step = ((ticks + 1) * per_age).div_ceil(ticks_per_age);
+        u64::try_from(step).unwrap_or(u64::MAX)
+    }
+
     /// Returns the first step at which the film is at least `age` old; 0 for negative ages and NaN.
     pub fn step_at(&self, age: f64) -> u64 {
         // An age that is a whole number of steps is to give that step, although the age itself has been rounded.

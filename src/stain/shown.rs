@@ -11,6 +11,10 @@ const STEP: f32 = 1.0 / 255.0;
 /// many layers and a clean vertex would be covered, and stains would show the outlines of triangles.
 pub(crate) const MOST_LAYERS: f32 = 1.0;
 
+/// Cover of first rust per corrosion: the spots have grown together over all of the metal long before it is fully
+/// rusted.
+pub(crate) const FIRST_RUST: f32 = 3.2;
+
 /// Stains as they were when they last counted as changed. Whatever creeps adds up against them, so that no change is
 /// missed for being slow.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use bevy::{
 use super::{report, systems};
 use crate::{
     api::system_sets::{CoatingStep, CoatingSystems},
-    timeline,
+    inspect, timeline,
 };
 
 /// Adds the schedule [`CoatingStep`] with its stages and systems.
@@ -43,7 +43,7 @@ pub(crate) fn add_step_schedule(app: &mut App) {
             systems::rust.in_set(CoatingSystems::Rust),
             systems::dust.in_set(CoatingSystems::Dust),
             systems::moisture.in_set(CoatingSystems::Moisture),
-            (report::report, timeline::keep_past).chain().in_set(CoatingSystems::Report),
+            (report::report, inspect::survey_due, timeline::keep_past).chain().in_set(CoatingSystems::Report),
         ),
     );
 }

@@ -10,7 +10,7 @@ use crate::tool::{QUICK, bake, baked, files, folder, keys, number, stats, write_
 fn figures_have_their_layout_and_agree_with_each_other() {
     let folder = folder();
     let stats = stats(folder.path(), &[&["plate:800", "--age", "0.93", "--seed", "2"], &QUICK[..]].concat());
-    assert_eq!(keys(&stats), ["digest", "film", "input", "run", "schema", "seconds", "timeline"]);
+    assert_eq!(keys(&stats), ["digest", "film", "input", "ratings", "run", "schema", "seconds", "timeline"]);
     assert_eq!(stats["schema"], 1);
     assert_eq!(keys(&stats["input"]), ["triangles", "vertices"]);
     assert_eq!(stats["input"]["triangles"], 800);
@@ -101,6 +101,38 @@ fn figures_have_their_layout_and_agree_with_each_other() {
 }
 
 #[test]
+fn films_are_aged_until_a_rating_is_reached() {
+    let folder = folder();
+    let run = |arguments: &[&str]| {
+        let all = [&["plate:400", "--preset", "heavy", "--stats", "stats.json"], arguments, &QUICK[..]].concat();
+        let output = baked(folder.path(), &all);
+        let stats: Value = serde_json::from_slice(&fs::read(folder.path().join("stats.json")).expect("figures"))
+            .expect("figures are JSON");
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (stats, text(&output.stdout), text(&output.stderr))
+    };
+    let (stats, said, warned) = run(&["--until", "ri3"]);
+    let until = &stats["run"]["until"];
+    assert_eq!([&until["goal"], &until["reached"]], [&json!("Ri3"), &json!(true)]);
+    let age = number(&until["age"]);
+    assert!(age > 0.05 && age < 10.0 && said.contains(&format!("reached Ri3 at age {age}")), "{said}");
+    assert!(said.contains("rated Ri3") && warned.is_empty(), "{said}{warned}");
+    let rated = stats["ratings"].as_array().expect("entries");
+    assert_eq!(rated.len(), stats["timeline"].as_array().expect("entries").len());
+    assert_eq!(number(&rated[rated.len() - 1]["age"]), age);
+    let before: Vec<&Value> = rated.iter().rev().skip(1).map(|entry| &entry["ratings"]["rust"]).collect();
+    assert!(before.iter().all(|rust| ["Ri0", "Ri1", "Ri2"].contains(&rust.as_str().expect("text"))), "{before:?}");
+    // The same age asked for gives the same film.
+    let (same, ..) = run(&["--age", &age.to_string()]);
+    assert_eq!(same["digest"], stats["digest"]);
+    assert_eq!(same["ratings"][rated.len() - 1], rated[rated.len() - 1]);
+
+    let (stats, said, warned) = run(&["--until", "gone=99%", "--age", "0.3"]);
+    assert_eq!(stats["run"]["until"], json!({ "goal": "gone=99%", "reached": false, "age": 0.3 }));
+    assert!(!said.contains("reached") && warned.contains("gone=99% was not reached by age 0.3"), "{said}{warned}");
+}
+
+#[test]
 fn the_same_run_gives_the_same_digest() {
     let folder = folder();
     let run = |seed: &str| stats(folder.path(), &[&["curved:400", "--seed", seed], &QUICK[..]].concat());
@@ -125,6 +157,9 @@ fn bad_usage_is_2() {
         &["plate:100", "--set", "tearing.beta"],
         &["plate:100", "--age", "-1"],
         &["plate:100", "--age", "NaN"],
+        &["plate:100", "--until", "Ri7"],
+        &["plate:100", "--until", "gone=120%"],
+        &["plate:100", "--until", ""],
         &["plate:100", "--steps", "0"],
         &["plate:100", "--steps", "-5"],
         &["plate:100", "--seed", "-1"],

@@ -18,19 +18,19 @@ const LADDER: [&[&str]; 15] = [
     &["fracture", "deform", "stain"],
     &["sim"],
     &["touch"],
-    &["snapshot"],
+    &["snapshot", "survey"],
     &["history"],
     &["appearance"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "shelter", "timeline", "stepping", "attach", "pointing", "debris"],
+    &["display", "inspect", "shelter", "timeline", "stepping", "attach", "pointing", "debris"],
     &["plugin"],
     &["prelude"],
     &["lib"],
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 15] = [
+const CORE: [&str; 16] = [
     "coding",
     "files",
     "settings",
@@ -43,6 +43,7 @@ const CORE: [&str; 15] = [
     "sim",
     "touch",
     "snapshot",
+    "survey",
     "history",
     "appearance",
     "bake",

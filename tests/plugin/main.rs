@@ -24,6 +24,7 @@ mod display;
 mod edits;
 mod grain;
 mod groups;
+mod inspect;
 #[cfg(feature = "render")]
 mod mask_picture;
 #[cfg(feature = "render")]

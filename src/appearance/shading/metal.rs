@@ -9,6 +9,7 @@ use super::{
     settings::FilmShading,
     surface::SurfaceShading,
 };
+use crate::stain::shown::FIRST_RUST;
 
 /// Number of layers in thick rust.
 const LEVELS: f32 = 4.0;
@@ -68,7 +69,7 @@ impl FilmShading {
         let spread = s.corrosion * (1.0 - s.corrosion);
         let age = (s.corrosion + spread * patches.around(0.0, 1.1)).clamp(0.0, 1.0);
         // Spots of first rust grow together, then layers cover them.
-        let first = grit.cover((age * 3.2).min(1.0), 0.2);
+        let first = grit.cover((age * FIRST_RUST).min(1.0), 0.2);
         let layered = scales.cover(smoothstep(0.22, 0.95, age), 0.14);
         let step = Step::of(scales.value * LEVELS);
         // The foot of a layer's edge lies in the shadow of the layer.

@@ -14,6 +14,7 @@ use bevy_coating::{
     remesh::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution},
     settings::CoatingSettings,
     stain::Environment,
+    survey::Until,
 };
 use bevy_math::Vec3;
 use clap::{
@@ -30,6 +31,10 @@ use crate::{
     },
 };
 
+/// Age to reach unless another is given: the end of the reference run.
+const AGE: f64 = 1.0;
+/// Age at which to give up what --until asks for, unless another is given.
+const UNTIL_AGE: f64 = 10.0;
 /// Path of the setting that --grain sets.
 const GRAIN: &str = "scale.grain";
 
@@ -92,9 +97,12 @@ pub struct Args {
     /// Change one setting, such as tearing.beta=0.3; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE", allow_hyphen_values = true, value_parser = parse_set)]
     settings: Vec<(String, String)>,
-    /// Age to reach: 1 is the end of the reference run
-    #[arg(long, default_value = "1", allow_hyphen_values = true, value_parser = parse_age)]
-    age: f64,
+    /// Age to reach: 1, the end of the reference run, unless given; with --until the age at which to give up, 10
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_age)]
+    age: Option<f64>,
+    /// Age until this is reached: Ri0 to Ri5, D610-10 to D610-0, "flaking 3", "cracking 3", or a share like gone=20%
+    #[arg(long, value_name = "RATING|SHARE", allow_hyphen_values = true)]
+    until: Option<Until>,
     /// Steps per unit age
     #[arg(
         long, default_value_t = 1000, allow_hyphen_values = true,
@@ -209,7 +217,8 @@ impl Args {
             metres_per_unit: self.metres_per_unit,
             settings,
             preset: self.preset.clone(),
-            age: self.age,
+            age: self.age.unwrap_or(if self.until.is_some() { UNTIL_AGE } else { AGE }),
+            until: self.until,
             steps: self.steps,
             quality: self.quality,
             seed: self.seed,

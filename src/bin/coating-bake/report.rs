@@ -88,6 +88,12 @@ pub fn summary<'a>(origin: &str, stats: &Stats, files: impl Iterator<Item = &'a 
         share(last.fallen),
         last.pieces,
     ));
+    if let Some(rated) = stats.ratings.last() {
+        print(&format!("rated {}", rated.ratings));
+    }
+    if let Some(until) = stats.run.until.as_ref().filter(|until| until.reached) {
+        print(&format!("reached {} at age {}", until.goal, until.age));
+    }
     print(&format!(
         "{:.2} s: build {:.2}, fracture {:.2}, deformation {:.2}, stains {:.2}, meshes and textures {:.2}, other {:.2}",
         seconds.total, seconds.build, seconds.fracture, seconds.deform, seconds.stain, seconds.mesh, seconds.other,

@@ -1,5 +1,7 @@
 //! Tests that edits from outside keep every part of a film in step.
 
+use bevy_math::Vec3;
+
 use super::{plate, quick};
 use crate::{
     deform::tests::draw::Draw,
@@ -75,5 +77,18 @@ fn a_blow_looks_like_a_crack_and_reports_what_happened() {
     let ends: Vec<VertexId> = film.changes.separated.clone();
     assert!(ends.iter().all(|&v| film.forces.separated_age[v.index()] == 0.0));
     film.age_to(0.5, &settings, &environment);
+    film.validate().unwrap();
+}
+
+#[test]
+fn a_piece_that_waits_to_fall_may_be_stripped_by_hand() {
+    let (settings, environment) = (CoatingSettings::default(), Environment::default());
+    let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+    let mesh = FilmMesh::new(corners, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+    let mut film = FilmState::from_mesh(mesh, &settings, 7, 1000);
+    assert!(film.tear_edge(HalfEdgeId(2), &settings, &environment));
+    assert!(film.mesh.topology.all_vertices().all(|v| !film.forces.is_attached(v)), "both hang loose");
+    assert!(film.strip_face(FaceId(0), &settings, &environment));
+    assert!(!film.mesh.topology.is_live(FaceId(0)) && film.mesh.topology.is_live(FaceId(1)));
     film.validate().unwrap();
 }
