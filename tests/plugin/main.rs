@@ -25,9 +25,13 @@ mod edits;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]
+mod heat;
+#[cfg(feature = "render")]
 mod mask_picture;
 #[cfg(feature = "render")]
 mod outline;
+#[cfg(feature = "panel")]
+mod panel;
 #[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
