@@ -65,6 +65,7 @@
 //!   it ([`stain`], VC 6).
 //! - **Appearance**: the meshes that are drawn. They are the front of the film with the prop's own attributes, the
 //!   backs of flakes in primer, and the bare metal ([`appearance`]).
+//! - **Heat maps**: what a film is about to do, as colours over it ([`heat`]).
 //! - **Settings**: the numbers that steer each stage ([`settings`]). They are given in code, as a
 //!   [`Preset`](settings::Preset), or as a `.coating.ron` asset.
 //!
@@ -88,6 +89,8 @@
 //! |---|---|---|
 //! | `plugin` | yes | the Bevy plugin: components, resources, messages, assets, and meshes that follow their films |
 //! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
+//! | `tools` | no | gizmos of cracks, bends and planes (`CoatingGizmos`); needs `bevy_picking` and `bevy_gizmos`, includes `plugin` |
+//! | `panel` | no | a panel for settings, clock, heat maps and figures; needs `bevy_egui`, includes `render` and `tools` |
 //! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |
 //! | (none) | | with `default-features = false` the simulation alone, which depends on `bevy_math` but not on Bevy |
 //!
@@ -127,12 +130,17 @@ mod display;
 mod files;
 pub mod film;
 pub mod fracture;
+#[cfg(feature = "tools")]
+mod gizmos;
 pub mod guide;
+pub mod heat;
 pub mod history;
 #[cfg(feature = "plugin")]
 mod inspect;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
+#[cfg(feature = "panel")]
+mod panel;
 #[cfg(feature = "plugin")]
 mod plugin;
 #[cfg(feature = "tools")]
@@ -164,10 +172,13 @@ pub use api::{
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,
     film_pace::FilmPace,
+    heat_map_view::HeatMapView,
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatedMesh, CoatingFilms, CoatingPart},
-    messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
+    messages::{
+        AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+    },
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
@@ -183,8 +194,12 @@ pub use api::{
 pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 #[cfg(feature = "render")]
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+#[cfg(feature = "tools")]
+pub use gizmos::{CoatingGizmos, CoatingGizmosPlugin};
 #[cfg(feature = "plugin")]
 pub use inspect::{FilmHit, FilmQuery};
+#[cfg(feature = "panel")]
+pub use panel::{CoatingPanel, CoatingPanelPlugin, PanelWidget};
 #[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "tools")]

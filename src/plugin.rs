@@ -14,7 +14,9 @@ use crate::{
         calendar::CoatingCalendar,
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
-        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
+        messages::{
+            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+        },
         status::CoatingStatus,
         system_sets::CoatingAdvance,
         unit::CoatingUnit,

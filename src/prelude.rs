@@ -14,7 +14,9 @@ pub use crate::{
         exclude::CoatingExclude,
         history::CoatingHistory,
         links::{CoatedBy, CoatingFilms},
-        messages::{AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed},
+        messages::{
+            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+        },
         outline::{PropMask, PropOutline},
         seed::CoatingSeed,
         shelter::{RainShelter, Shelter},

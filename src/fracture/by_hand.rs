@@ -84,6 +84,7 @@ pub(crate) fn cut_out(
         if !is_there(mesh, f) {
             continue;
         }
+        let (torn, separated) = (changes.torn.len(), changes.separated.len());
         for v in mesh.topology.corners(f) {
             let_go(&mesh.topology, forces, v, age, changes);
         }
@@ -100,10 +101,10 @@ pub(crate) fn cut_out(
             for v in mesh.topology.corners(f) {
                 forces.tips[v.index()] = Vec3::ZERO;
             }
+        } else if changes.torn.len() == torn && changes.separated.len() == separated {
+            // It was cut out and loose already, and waited for its time to fall.
+            strip_if_free(mesh, forces, f, changes);
         }
-    } else if changes.torn.is_empty() && changes.separated.is_empty() {
-        // It was cut out and loose already, and waited for its time to fall.
-        strip_if_free(mesh, forces, f, changes);
     }
     strip(mesh, forces, &settings.stripping, age, changes, scratch);
     forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);

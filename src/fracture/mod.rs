@@ -50,7 +50,7 @@ pub(crate) use by_hand::{cut, cut_out, strike};
 pub use by_hand::{strip_by_hand, tear_by_hand};
 pub use forces::FilmForces;
 pub use scratch::FractureScratch;
-pub use separation::{bending_force, separate, separation_age};
+pub use separation::{age_until_separation, bending_force, separate, separation_age};
 pub use sigmoid::sigmoid;
 pub use stripping::strip;
 pub use tearing::tear;

@@ -23,8 +23,8 @@ use crate::{
     api::links::{CoatedBy, FilmSource},
     film::FilmMesh,
     fracture::FilmForces,
-    stain::StainFields,
     inspect::FilmHit,
+    stain::StainFields,
     survey::FilmView,
 };
 

@@ -20,17 +20,17 @@ const LADDER: [&[&str]; 15] = [
     &["touch"],
     &["snapshot", "survey"],
     &["history"],
-    &["appearance"],
+    &["appearance", "heat"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "inspect", "shelter", "timeline", "stepping", "attach", "pointing", "debris"],
-    &["plugin"],
+    &["display", "inspect", "gizmos", "shelter", "timeline", "stepping", "attach", "pointing", "debris"],
+    &["panel", "plugin"],
     &["prelude"],
     &["lib"],
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 16] = [
+const CORE: [&str; 17] = [
     "coding",
     "files",
     "settings",
@@ -46,6 +46,7 @@ const CORE: [&str; 16] = [
     "survey",
     "history",
     "appearance",
+    "heat",
     "bake",
 ];
 

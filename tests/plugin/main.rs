@@ -24,11 +24,15 @@ mod display;
 mod edits;
 mod grain;
 mod groups;
+#[cfg(feature = "render")]
+mod heat;
 mod inspect;
 #[cfg(feature = "render")]
 mod mask_picture;
 #[cfg(feature = "render")]
 mod outline;
+#[cfg(feature = "panel")]
+mod panel;
 #[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]
