@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`getting_started`] | a first prop, glTF scenes, the clock, messages, components |
 //! | [`settings`] | every setting with its default and range, files, presets |
+//! | [`masks`] | where paint is weak or dirty from the start; custom properties of models |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
 //! | [`panel`] | a panel for all settings, heat maps, gizmos |
 //! | [`baking`] | ageing model files without an engine |
@@ -22,6 +23,7 @@ macro_rules! links {
     () => {
         "[getting started]: crate::guide::getting_started
 [settings]: crate::guide::settings
+[masks]: crate::guide::masks
 [stains]: crate::guide::stains
 [panel]: crate::guide::panel
 [baking]: crate::guide::baking
@@ -43,6 +45,10 @@ pub mod getting_started {}
 #[doc = links!()]
 #[doc = include_str!("../docs/settings.md")]
 pub mod settings {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/masks.md")]
+pub mod masks {}
 
 #[doc = links!()]
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/stains.md"))]

@@ -91,6 +91,7 @@
 //! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
 //! | `tools` | no | gizmos of cracks, bends and planes (`CoatingGizmos`); needs `bevy_picking` and `bevy_gizmos`, includes `plugin` |
 //! | `panel` | no | a panel for settings, clock, heat maps and figures; needs `bevy_egui`, includes `render` and `tools` |
+//! | `gltf` | no | coatings from custom properties of glTF files, as Blender writes them; needs `bevy_gltf` |
 //! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |
 //! | (none) | | with `default-features = false` the simulation alone, which depends on `bevy_math` but not on Bevy |
 //!
@@ -127,6 +128,8 @@ mod debris;
 pub mod deform;
 #[cfg(feature = "plugin")]
 mod display;
+#[cfg(any(feature = "bake", feature = "gltf"))]
+pub mod extras;
 mod files;
 pub mod film;
 pub mod fracture;
@@ -137,6 +140,7 @@ pub mod heat;
 pub mod history;
 #[cfg(feature = "plugin")]
 mod inspect;
+pub mod masks;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "panel")]
@@ -176,6 +180,7 @@ pub use api::{
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatedMesh, CoatingFilms, CoatingPart},
+    masks::CoatingMasks,
     messages::{
         AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
     },

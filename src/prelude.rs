@@ -14,6 +14,7 @@ pub use crate::{
         exclude::CoatingExclude,
         history::CoatingHistory,
         links::{CoatedBy, CoatingFilms},
+        masks::CoatingMasks,
         messages::{
             AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
         },

@@ -18,6 +18,7 @@ pub(crate) mod heat_map_view;
 pub(crate) mod history;
 pub(crate) mod limits;
 pub(crate) mod links;
+pub(crate) mod masks;
 pub(crate) mod messages;
 pub(crate) mod outline;
 pub(crate) mod seed;

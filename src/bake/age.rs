@@ -4,8 +4,9 @@ use web_time::Instant;
 
 use super::{
     baked::Baked,
-    coat::{Coated, coat},
+    coat::{Coated, Prop, coat},
     error::BakeError,
+    extras::read_extras,
     leave::leave_alone,
     model::Model,
     options::BakeOptions,
@@ -21,8 +22,8 @@ use crate::{
     survey::UntilWatch,
 };
 
-/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`], or until [`BakeOptions::until`]. `stopwatch` has run since before the
-/// model was read.
+/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`], or until [`BakeOptions::until`].
+/// `stopwatch` has run since before the model was read.
 ///
 /// ```
 /// use bevy_coating::bake::{BakeOptions, Images, Input, Stopwatch, bake};
@@ -49,7 +50,10 @@ pub fn bake(
     options.validate()?;
     let input = InputStats::of(&model.meshes);
     let mut model = model;
-    let left = leave_alone(&mut model, &options.exclude)?;
+    if options.extras {
+        read_extras(&mut model);
+    }
+    let left = leave_alone(&mut model, &options.exclude, options.extras)?;
     let Model { origin, copyright, meshes, materials, mut warnings, carried, .. } = model;
     let coated = stopwatch.build(|| coat(&origin, meshes, options))?;
     let Coated { props, mut films, warnings: built } = coated;
@@ -58,8 +62,8 @@ pub fn bake(
 
     stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
-    let film = FilmStats::of(&films, &options.settings.scale);
-    let Aged { timeline, ratings, reached } = age(&mut films, options, &mut stopwatch, progress);
+    let film = FilmStats::of(&films);
+    let Aged { timeline, ratings, reached } = age(&mut films, &props, options, &mut stopwatch, progress);
     let until = options.until.zip(ratings.last()).map(|(goal, last)| UntilStats { goal, reached, age: last.age });
     if let (Some(UntilStats { goal: until, reached: false, age }), Some(last)) = (&until, ratings.last()) {
         warnings.push(BakeWarning::NotReached { until: *until, age: *age, ratings: last.ratings });
@@ -106,7 +110,13 @@ struct Aged {
 }
 
 /// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the condition.
-fn age(films: &mut [FilmState], options: &BakeOptions, stopwatch: &mut Stopwatch, progress: &dyn Progress) -> Aged {
+fn age(
+    films: &mut [FilmState],
+    props: &[Prop],
+    options: &BakeOptions,
+    stopwatch: &mut Stopwatch,
+    progress: &dyn Progress,
+) -> Aged {
     let mut aged = Aged::default();
     let Some(clock) = films.first().map(|film| film.clock) else { return aged };
     let faces: u64 = films.iter().map(|film| film.mesh.topology.face_count() as u64).sum();
@@ -120,7 +130,7 @@ fn age(films: &mut [FilmState], options: &BakeOptions, stopwatch: &mut Stopwatch
             if aged.reached || now >= step {
                 break;
             }
-            take_steps(films, step, options, stopwatch, progress);
+            take_steps(films, props, step, options, stopwatch, progress);
         }
         aged.timeline.push(FilmState::measure_all(films));
         aged.ratings.push(RatedAge::of(films));
@@ -134,23 +144,26 @@ fn age(films: &mut [FilmState], options: &BakeOptions, stopwatch: &mut Stopwatch
 /// Takes all films to `step`, or only to the next tick where a condition is looked for.
 fn take_steps(
     films: &mut [FilmState],
+    props: &[Prop],
     step: u64,
     options: &BakeOptions,
     stopwatch: &mut Stopwatch,
     progress: &dyn Progress,
 ) {
     let start = Instant::now();
-    let mut runs: Vec<_> = films.iter_mut().map(|film| (film, StageTimes::default())).collect();
-    parallel::for_each(&mut runs, |(film, times)| {
+    let settings = props.iter().map(|prop| &prop.settings);
+    let mut runs: Vec<_> =
+        films.iter_mut().zip(settings).map(|(film, settings)| (film, settings, StageTimes::default())).collect();
+    parallel::for_each(&mut runs, |(film, settings, times)| {
         let work = film.mesh.topology.face_count() as u64;
         let step = if options.until.is_some() { step.min(film.clock.next_tick()) } else { step };
         while film.clock.steps < step {
-            film.step_timed(&options.settings, &options.environment, times);
+            film.step_timed(settings, &options.environment, times);
             progress.advance(work);
         }
     });
     let mut times = StageTimes::default();
-    runs.iter().for_each(|(_, own)| times.merge(own));
+    runs.iter().for_each(|(.., own)| times.merge(own));
     stopwatch.add_stages(&times, start.elapsed());
 }
 

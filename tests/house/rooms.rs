@@ -17,7 +17,7 @@ const LADDER: [&[&str]; 15] = [
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
     &["sim"],
-    &["touch"],
+    &["extras", "masks", "touch"],
     &["snapshot", "survey"],
     &["history"],
     &["appearance", "heat"],
@@ -30,7 +30,7 @@ const LADDER: [&[&str]; 15] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 17] = [
+const CORE: [&str; 19] = [
     "coding",
     "files",
     "settings",
@@ -42,6 +42,8 @@ const CORE: [&str; 17] = [
     "stain",
     "sim",
     "touch",
+    "extras",
+    "masks",
     "snapshot",
     "survey",
     "history",

@@ -22,6 +22,8 @@ mod clones;
 mod detail;
 mod display;
 mod edits;
+#[cfg(feature = "gltf")]
+mod extras;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]
@@ -29,6 +31,7 @@ mod heat;
 mod inspect;
 #[cfg(feature = "render")]
 mod mask_picture;
+mod masks;
 #[cfg(feature = "render")]
 mod outline;
 #[cfg(feature = "panel")]
@@ -39,6 +42,7 @@ mod parts;
 mod picture;
 mod rebuilding;
 mod recovery;
+mod reflection;
 mod rest;
 mod saving;
 mod seeds;
