@@ -1,5 +1,5 @@
-//! Draws the inner life of films into the world: tips of cracks, edges that are stretched, bends, and the planes that no
-//! vertex goes below.
+//! Draws the inner life of films into the world: tips of cracks, edges that are stretched, bends, and the planes that
+//! no vertex goes below.
 
 use bevy::{
     app::{App, Plugin, PostUpdate},

@@ -69,7 +69,7 @@ pub(crate) struct FilmDisplay {
     pub(super) parts: super::part_handles::PartHandles,
     /// Heat map, while one is shown.
     #[cfg(feature = "render")]
-    pub(super) heat: Option<Box<super::heat::HeatOverlay>>,
+    pub(super) heat: Option<Box<super::heat_overlay::HeatOverlay>>,
 }
 
 impl FilmDisplay {

@@ -24,6 +24,7 @@ use bevy::{
 
 use super::{
     film_display::FilmDisplay,
+    heat_overlay::HeatOverlay,
     mesh::{PartSpace, insert, new_mesh},
 };
 use crate::{
@@ -45,21 +46,6 @@ const LIFT: f32 = 0.02;
 /// Bias of their depth, so that they are also seen where the front is shown more finely than the film is simulated, and
 /// lies a little higher.
 const DEPTH_BIAS: f32 = 400.0;
-
-/// Mesh that shows a heat map of one film.
-#[derive(Debug)]
-pub(super) struct HeatOverlay {
-    /// Entity that draws it.
-    pub part: Entity,
-    /// Mesh entity of the film that it is a child of.
-    parent: Entity,
-    mesh: Handle<Mesh>,
-    /// View that the mesh shows.
-    shown: HeatMapView,
-    values: HeatValues,
-    /// Rain that the mesh shows, where it shows any.
-    rain: Vec<f32>,
-}
 
 /// Film that may show a heat map.
 #[derive(QueryData)]

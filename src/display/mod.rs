@@ -8,8 +8,8 @@
 //!   ([`CoatingPart`](crate::api::links::CoatingPart)) draw the backs of flakes and the bare metal, with their stains.
 //!   They have the sides and holes of the primitive's material, its layers, shadow flags and visibility. Without that
 //!   feature there are no materials for them, and they are left out.
-//! - Where a [`HeatMapView`](crate::api::heat_map_view::HeatMapView) asks for it, a further child shows the film coloured
-//!   by a quantity.
+//! - Where a [`HeatMapView`](crate::api::heat_map_view::HeatMapView) asks for it, a further child shows the film in
+//!   the colours of a quantity.
 //!
 //! Films are shown at the level that their distance asks for ([`level`]). Assets are changed only in frames in which
 //! the film changed, and then only where it did ([`mesh`]).
@@ -21,6 +21,8 @@ mod film_display;
 mod film_paint;
 #[cfg(feature = "render")]
 mod heat;
+#[cfg(feature = "render")]
+mod heat_overlay;
 mod level;
 #[cfg(feature = "render")]
 mod material;

@@ -59,8 +59,8 @@ pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, d
     if lift <= 0.0 || closing <= 0.0 { f32::INFINITY } else { (adhesion - lift * contraction) / closing }
 }
 
-/// Returns the age after which `v`, which is attached, separates if nothing tears around it: 0 if it does so at once, or
-/// infinity if it never does.
+/// Returns the age after which `v`, which is attached, separates if nothing tears around it: 0 if it does so at once,
+/// or infinity if it never does.
 ///
 /// Adhesion and contraction change at the rates of `settings`, and faster at a `moisture` (0 to 1) that stays as it is.
 /// It is the closed form [`separation_age`] from the present forces on. Panics if the film has no such vertex.

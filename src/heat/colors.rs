@@ -34,7 +34,7 @@ impl HeatMap {
     ///
     /// let range = HeatRange { min: 0.0, max: 2.0 };
     /// let brightness = |value| HeatMap::Adhesion.color(value, range).iter().sum::<f32>();
-    /// assert!(brightness(0.0) > brightness(1.0) && brightness(1.0) > brightness(2.0), "what is near to fracture glows");
+    /// assert!(brightness(0.0) > brightness(1.0) && brightness(1.0) > brightness(2.0), "what is next glows");
     /// ```
     pub fn color(self, value: f32, range: HeatRange) -> [f32; 3] {
         if self.is_of_kinds() {

@@ -21,8 +21,8 @@ pub struct HeatRange {
 }
 
 impl HeatRange {
-    /// Returns the place of `value` in the range: 0 at the lower end and below, 1 at the upper end and above. NaN, which
-    /// has no place, gives NaN.
+    /// Returns the place of `value` in the range: 0 at the lower end and below, 1 at the upper end and above. NaN,
+    /// which has no place, gives NaN.
     pub fn share(&self, value: f32) -> f32 {
         if value.is_nan() {
             return f32::NAN;

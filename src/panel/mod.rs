@@ -45,7 +45,7 @@ use crate::gizmos::CoatingGizmosPlugin;
 /// Width of the settings at the left, in points.
 const LEFT: f32 = 356.0;
 /// Width of what there is to watch at the right, in points.
-const RIGHT: f32 = 264.0;
+const RIGHT: f32 = 276.0;
 /// Height of the clock at the bottom, in points.
 const BOTTOM: f32 = 44.0;
 

@@ -17,7 +17,7 @@ use crate::heat::HeatMap;
 /// Height of the list of props, in points.
 const PROPS: f32 = 92.0;
 /// Width of a button of a heat map: four a row.
-const MAP: f32 = 57.0;
+const MAP: f32 = 62.0;
 
 /// Adds everything that there is to watch.
 pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: 
 
 fn props(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
-        text(ui, 116.0, RichText::new("name").weak().small());
+        text(ui, 128.0, RichText::new("name").weak().small());
         right_text(ui, 52.0, RichText::new("age").weak().small());
         right_text(ui, 64.0, RichText::new("triangles").weak().small());
     });
@@ -59,7 +59,7 @@ fn line(ui: &mut Ui, prop: &PropLine, view: &View, panel: &mut CoatingPanel, act
     ui.horizontal(|ui| {
         let is_chosen = view.chosen == Some(prop.entity);
         let label = Button::selectable(is_chosen, prop.name.as_str()).truncate();
-        let name = cell(ui, 116.0, |ui| ui.add(label));
+        let name = cell(ui, 128.0, |ui| ui.add(label));
         panel.places.insert(PanelWidget::Prop(prop.entity), name.rect);
         if name.on_hover_text(&prop.name).clicked() {
             actions.push(Action::Choose(prop.entity));
@@ -75,6 +75,8 @@ fn maps(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Ac
     let choices: Vec<Option<HeatMap>> = [None].into_iter().chain(HeatMap::ALL.map(Some)).collect();
     for row in choices.chunks(4) {
         ui.horizontal(|ui| {
+            // The longest name just fits.
+            ui.spacing_mut().button_padding.x = 1.0;
             for &map in row {
                 let name = map.map_or("off", HeatMap::name);
                 let button = ui.add_sized([MAP, ROW], Button::selectable(shown == map, name));
@@ -98,7 +100,7 @@ fn times(ui: &mut Ui, view: &View) {
     let sum: f64 = view.times.iter().filter_map(|(_, time)| *time).sum();
     for (name, time) in view.times.iter().copied().chain([("all of it", Some(sum))]) {
         ui.horizontal(|ui| {
-            text(ui, 116.0, name);
+            text(ui, 128.0, name);
             let time = time.map_or("-".to_owned(), |time| format!("{time:.2} ms"));
             right_text(ui, 80.0, RichText::new(time).monospace());
         });

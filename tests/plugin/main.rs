@@ -24,6 +24,8 @@ mod display;
 mod edits;
 #[cfg(feature = "gltf")]
 mod extras;
+#[cfg(feature = "tools")]
+mod gizmos;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]

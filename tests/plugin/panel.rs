@@ -271,7 +271,7 @@ fn the_panel_over_the_sign_can_be_looked_at() {
         desk.world().resource::<AssetServer>().load(GltfAssetLabel::Scene(0).from_asset("city/street_sign.glb"));
     let coating = Coating::new(Preset::Default).with_seed(3).with_triangles(6000).with_steps_per_age(200);
     let sign = desk.world().spawn((Name::new("street sign"), WorldAssetRoot(scene), coating)).id();
-    for (i, name) in ["mailbox", "a prop with a name that is far too long for the list"].into_iter().enumerate() {
+    for (i, name) in ["mailbox", "a long name of a prop that does not fit"].into_iter().enumerate() {
         let mesh = add_mesh(&mut desk.studio.app, plate(6));
         let at = Transform::from_xyz(50.0 + 3.0 * i as f32, 0.0, 0.0);
         desk.world().spawn((Name::new(name), Mesh3d(mesh), at, quick_coating().with_seed(i as u64)));
@@ -305,8 +305,9 @@ fn the_panel_over_the_sign_can_be_looked_at() {
     desk.click(PanelWidget::Heat(Some(HeatMap::Adhesion)));
     let middle = desk.place(PanelWidget::Setting("adhesion.mean")).center();
     desk.send(egui::Event::PointerMoved(pos2(desk.place(PanelWidget::Left).left() + 40.0, middle.y)));
+    // Long enough for the explanation to appear, and some steps whose times can be seen.
     for _ in 0..8 {
-        desk.studio.app.update();
+        take_steps(&mut desk.studio.app, 1);
         std::thread::sleep(std::time::Duration::from_millis(100));
     }
     let heated = desk.studio.shoot(eye, target);
