@@ -1,4 +1,4 @@
-//! The presets side by side: six ways in which paint grows old.
+//! The presets side by side: twelve ways in which paint grows old.
 //!
 //! `cargo run --example presets`. When all are ruined they get fresh paint with another seed, and it begins again;
 //! Space begins again at once.
@@ -24,12 +24,13 @@ struct Shows(Preset);
 fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials: ResMut<Assets<StandardMaterial>>) {
     let sphere = meshes.add(Sphere::new(0.5));
     let paint = materials.add(Color::srgb(0.65, 0.2, 0.15));
-    for (preset, x) in Preset::ALL.into_iter().zip([-3.0, -1.8, -0.6, 0.6, 1.8, 3.0]) {
+    let rows = [0.85, -0.85].map(|y| [-3.0, -1.8, -0.6, 0.6, 1.8, 3.0].map(|x| Vec3::new(x, y, 0.0)));
+    for (preset, place) in Preset::ALL.into_iter().zip(rows.concat()) {
         commands.spawn((
             Shows(preset),
             Mesh3d(sphere.clone()),
             MeshMaterial3d(paint.clone()),
-            Transform::from_xyz(x, 0.0, 0.0),
+            Transform::from_translation(place),
             // A preset is a set of settings. For some of your own: `Coating::new(CoatingSettings { .. })`, or the
             // handle of a `.coating.ron` asset.
             Coating::new(preset),
@@ -38,7 +39,7 @@ fn setup(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut materials
     let sun = DirectionalLight { illuminance: 8_000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(-1.0, 1.5, 2.0).looking_at(Vec3::ZERO, Vec3::Y)));
     commands.insert_resource(GlobalAmbientLight { brightness: 300.0, ..default() });
-    commands.spawn((Camera3d::default(), Transform::from_xyz(0.0, 0.3, 5.6).looking_at(Vec3::ZERO, Vec3::Y)));
+    commands.spawn((Camera3d::default(), Transform::from_xyz(0.0, 0.3, 6.4).looking_at(Vec3::ZERO, Vec3::Y)));
 }
 
 /// Gives every sphere fresh paint when the youngest film has come to age 1, or when Space is pressed.

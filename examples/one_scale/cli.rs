@@ -20,7 +20,7 @@ pub struct Options {
     /// What the camera looks at.
     #[arg(long, value_enum, default_value_t = View::All)]
     pub view: View,
-    /// How the paint behaves: default, few_cracks, gentle or heavy.
+    /// How the paint behaves: a preset, such as few_cracks, heavy or marine.
     #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_preset)]
     pub preset: (String, CoatingSettings),
     /// What cracks and curls are measured in; M changes it in the window.

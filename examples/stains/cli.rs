@@ -19,7 +19,7 @@ pub struct Options {
     /// What is shown, one picture each; all by default.
     #[arg(long = "theme", value_name = "THEME,..", value_enum, value_delimiter = ',')]
     themes: Vec<Theme>,
-    /// How the paint behaves but for what a row shows: default, few_cracks, gentle, harsh, heavy or paper.
+    /// How the paint behaves but for what a row shows: a preset, such as few_cracks, heavy or marine.
     #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_preset)]
     pub preset: (String, CoatingSettings),
     /// Triangles of the film on each piece.

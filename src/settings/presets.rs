@@ -21,43 +21,80 @@ pub enum Preset {
     /// The defaults of [`CoatingSettings`]: long branching cracks, flakes curled outward along them.
     #[default]
     Default,
+    /// Lime wash that has turned to chalk: it crumbles away in small flat scales.
+    ChalkyWhitewash,
+    /// Paint burnt dry by the sun: a fine net of cracks, small crisp scales, sand instead of rust.
+    DesertSun,
     /// Paint that peels more than it cracks (VC fig. 12a).
     FewCracks,
+    /// Good enamel, well cared for: a few hairline cracks at age 1, and hardly a chip.
+    FreshEnamel,
     /// Paint that has been cared for: fewer separated places, little curl.
     Gentle,
     /// Long neglect: most of the paint separated, cracked and curled.
     Heavy,
     /// Ruin: most of the paint gone, shreds on bare metal.
     Harsh,
+    /// Paint by the sea, where rust leads: metal rusts fast, and long streaks run off at every crack.
+    Marine,
+    /// Old lead paint in thick coats: large flakes that curl up and hang on by an edge.
+    OldLeadPaint,
     /// The paper's rules and constants as printed, which count in triangles: for its figures and for comparison.
     Paper,
+    /// Powder coat: a tough skin that hardly cracks and comes off in large sheets.
+    PowderCoat,
 }
 
 impl Preset {
     /// Every preset, in the order of their names.
-    pub const ALL: [Self; 6] = [Self::Default, Self::FewCracks, Self::Gentle, Self::Harsh, Self::Heavy, Self::Paper];
+    pub const ALL: [Self; 12] = [
+        Self::ChalkyWhitewash,
+        Self::Default,
+        Self::DesertSun,
+        Self::FewCracks,
+        Self::FreshEnamel,
+        Self::Gentle,
+        Self::Harsh,
+        Self::Heavy,
+        Self::Marine,
+        Self::OldLeadPaint,
+        Self::Paper,
+        Self::PowderCoat,
+    ];
 
     /// Returns the name by which files, programs and [`FromStr`] know the preset.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::ChalkyWhitewash => "chalky_whitewash",
             Self::Default => "default",
+            Self::DesertSun => "desert_sun",
             Self::FewCracks => "few_cracks",
+            Self::FreshEnamel => "fresh_enamel",
             Self::Gentle => "gentle",
-            Self::Heavy => "heavy",
             Self::Harsh => "harsh",
+            Self::Heavy => "heavy",
+            Self::Marine => "marine",
+            Self::OldLeadPaint => "old_lead_paint",
             Self::Paper => "paper",
+            Self::PowderCoat => "powder_coat",
         }
     }
 
     /// Returns the RON text of the preset.
     pub const fn ron(self) -> &'static str {
         match self {
+            Self::ChalkyWhitewash => include_str!("../../assets/presets/chalky_whitewash.coating.ron"),
             Self::Default => include_str!("../../assets/presets/default.coating.ron"),
+            Self::DesertSun => include_str!("../../assets/presets/desert_sun.coating.ron"),
             Self::FewCracks => include_str!("../../assets/presets/few_cracks.coating.ron"),
+            Self::FreshEnamel => include_str!("../../assets/presets/fresh_enamel.coating.ron"),
             Self::Gentle => include_str!("../../assets/presets/gentle.coating.ron"),
-            Self::Heavy => include_str!("../../assets/presets/heavy.coating.ron"),
             Self::Harsh => include_str!("../../assets/presets/harsh.coating.ron"),
+            Self::Heavy => include_str!("../../assets/presets/heavy.coating.ron"),
+            Self::Marine => include_str!("../../assets/presets/marine.coating.ron"),
+            Self::OldLeadPaint => include_str!("../../assets/presets/old_lead_paint.coating.ron"),
             Self::Paper => include_str!("../../assets/presets/paper.coating.ron"),
+            Self::PowderCoat => include_str!("../../assets/presets/powder_coat.coating.ron"),
         }
     }
 }

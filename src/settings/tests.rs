@@ -276,6 +276,115 @@ fn presets_change_what_they_say() {
             ],
         ),
         ("paper", &[("scale.rules", "Paper")]),
+        (
+            "chalky_whitewash",
+            &[
+                ("adhesion.mean", "2.0"),
+                ("adhesion.deviation", "0.5"),
+                ("adhesion.octaves", "4"),
+                ("adhesion.wavelength", "5.0"),
+                ("adhesion.decay", "0.8"),
+                ("tearing.relief", "0.8"),
+                ("tearing.relief_reach", "0.4"),
+                ("tearing.memory", "0.8"),
+                ("tearing.weak_probability", "0.03"),
+                ("tearing.alpha", "0.2"),
+                ("tearing.beta", "0.18"),
+                ("deform.narrowing_rate", "0.2"),
+                ("deform.bend_limit", "0.08"),
+                ("stripping.hold", "0.005"),
+                ("stripping.hold_area", "3.5"),
+                ("rust.emission", "0.01"),
+                ("rust.corrosion", "1.5"),
+                ("dust.rate", "0.7"),
+            ],
+        ),
+        (
+            "desert_sun",
+            &[
+                ("scale.grain", "0.018"),
+                ("adhesion.mean", "2.6"),
+                ("adhesion.deviation", "0.6"),
+                ("adhesion.decay", "0.9"),
+                ("tearing.contraction_growth", "1.4"),
+                ("tearing.relief_reach", "0.5"),
+                ("tearing.weak_probability", "0.02"),
+                ("tearing.binding_decay", "1.8"),
+                ("deform.bend_limit", "0.3"),
+                ("rust.emission", "0.005"),
+                ("rust.corrosion", "0.4"),
+                ("dust.rate", "2.5"),
+                ("dust.height", "0.2"),
+                ("dust.direction", "1.0"),
+                ("moisture.drying", "60.0"),
+                ("moisture.sun", "3.0"),
+            ],
+        ),
+        (
+            "fresh_enamel",
+            &[
+                ("adhesion.mean", "2.4"),
+                ("adhesion.deviation", "0.6"),
+                ("adhesion.decay", "0.7"),
+                ("tearing.contraction_growth", "0.6"),
+                ("tearing.binding_decay", "1.0"),
+                ("deform.bend_limit", "0.2"),
+                ("rust.emission", "0.015"),
+                ("rust.corrosion", "2.0"),
+                ("dust.rate", "0.4"),
+            ],
+        ),
+        (
+            "marine",
+            &[
+                ("adhesion.decay", "1.1"),
+                ("tearing.weak_probability", "0.02"),
+                ("tearing.binding_decay", "1.5"),
+                ("rust.emission", "0.3"),
+                ("rust.speed", "2.0"),
+                ("rust.deposit", "3.0"),
+                ("rust.corrosion", "12.0"),
+                ("dust.rate", "0.5"),
+                ("moisture.drying", "8.0"),
+                ("moisture.crevice", "0.1"),
+                ("moisture.adhesion", "2.0"),
+                ("moisture.emission", "3.0"),
+            ],
+        ),
+        (
+            "old_lead_paint",
+            &[
+                ("scale.grain", "0.036"),
+                ("adhesion.wavelength", "6.0"),
+                ("adhesion.decay", "1.1"),
+                ("tearing.relief_reach", "0.8"),
+                ("tearing.alpha", "0.4"),
+                ("deform.narrowing_rate", "1.0"),
+                ("deform.bend_limit", "0.5"),
+                ("deform.curl_reach", "2.5"),
+                ("stripping.hold_area", "1.0"),
+                ("rust.emission", "0.05"),
+            ],
+        ),
+        (
+            "powder_coat",
+            &[
+                ("scale.grain", "0.036"),
+                ("adhesion.mean", "2.2"),
+                ("adhesion.deviation", "0.9"),
+                ("adhesion.octaves", "1"),
+                ("adhesion.wavelength", "10.0"),
+                ("tearing.relief_reach", "1.0"),
+                ("tearing.memory", "4.0"),
+                ("tearing.weak_probability", "0.003"),
+                ("tearing.alpha", "0.6"),
+                ("tearing.beta", "0.25"),
+                ("deform.bend_limit", "0.2"),
+                ("deform.curl_reach", "4.0"),
+                ("rust.emission", "0.05"),
+                ("dust.rate", "0.8"),
+            ],
+        ),
     ] {
         let mut expected = CoatingSettings::default();
         for (path, value) in changes {
@@ -284,7 +393,7 @@ fn presets_change_what_they_say() {
         assert_eq!(CoatingSettings::preset(name).unwrap(), expected, "{name}");
     }
     let unknown = CoatingSettings::preset("rusty").unwrap_err().to_string();
-    assert_eq!(unknown, "there is no preset `rusty`; there are default, few_cracks, gentle, harsh, heavy, paper");
+    assert_eq!(unknown, format!("there is no preset `rusty`; there are {}", Preset::ALL.map(Preset::name).join(", ")));
 }
 
 #[test]
