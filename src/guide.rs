@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`getting_started`] | a first prop, glTF scenes, the clock, messages, components |
 //! | [`settings`] | every setting with its default and range, files, presets |
+//! | [`masks`] | where paint is weak or dirty from the start; custom properties of models |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
 //! | [`baking`] | ageing model files without an engine |
 //! | [`saving`] | saving and restoring films, going back in time, props that come late |
@@ -20,6 +21,7 @@ macro_rules! links {
     () => {
         "[getting started]: crate::guide::getting_started
 [settings]: crate::guide::settings
+[masks]: crate::guide::masks
 [stains]: crate::guide::stains
 [baking]: crate::guide::baking
 [saving]: crate::guide::saving
@@ -39,6 +41,10 @@ pub mod getting_started {}
 #[doc = links!()]
 #[doc = include_str!("../docs/settings.md")]
 pub mod settings {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/masks.md")]
+pub mod masks {}
 
 #[doc = links!()]
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/stains.md"))]

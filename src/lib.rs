@@ -88,6 +88,7 @@
 //! |---|---|---|
 //! | `plugin` | yes | the Bevy plugin: components, resources, messages, assets, and meshes that follow their films |
 //! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
+//! | `gltf` | no | coatings from custom properties of glTF files, as Blender writes them; needs `bevy_gltf` |
 //! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |
 //! | (none) | | with `default-features = false` the simulation alone, which depends on `bevy_math` but not on Bevy |
 //!
@@ -122,11 +123,14 @@ mod coding;
 pub mod deform;
 #[cfg(feature = "plugin")]
 mod display;
+#[cfg(any(feature = "bake", feature = "gltf"))]
+pub mod extras;
 mod files;
 pub mod film;
 pub mod fracture;
 pub mod guide;
 pub mod history;
+pub mod masks;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
 #[cfg(feature = "plugin")]
@@ -158,6 +162,7 @@ pub use api::{
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatedMesh, CoatingPart},
+    masks::CoatingMasks,
     messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
     outline::{PropMask, PropOutline},
     seed::CoatingSeed,

@@ -13,6 +13,7 @@ pub use crate::{
         exclude::CoatingExclude,
         history::CoatingHistory,
         links::CoatedBy,
+        masks::CoatingMasks,
         messages::{AgeReached, FilmFailed, FilmReady, FirstCrack, PieceFallen, RestoreFailed},
         outline::{PropMask, PropOutline},
         seed::CoatingSeed,

@@ -6,7 +6,9 @@ use bevy::{
     reflect::prelude::*,
 };
 
-use super::{outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather};
+use super::{
+    masks::CoatingMasks, outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather,
+};
 use crate::{
     appearance::{
         Detail,
@@ -108,6 +110,8 @@ pub struct Coating {
     /// Sides and holes of backs and metal where the prop's material is not a `StandardMaterial`. Default:
     /// [`PropOutline::default`], front sides without holes.
     pub outline: PropOutline,
+    /// Masks: where the films are weak or dirty from the start. Default: none.
+    pub masks: CoatingMasks,
     /// How finely the film is shown, and how its torn edges look. Default: [`Detail::default`], the film's own
     /// triangles. From level 1 on the film follows the prop's own surface however coarse it is, curls are smooth, torn
     /// edges chipped, and the paint has a thickness: for props that are looked at from nearby.
@@ -131,6 +135,7 @@ impl Default for Coating {
             stain_display: StainDisplay::default(),
             shading: FilmShading::default(),
             outline: PropOutline::default(),
+            masks: CoatingMasks::default(),
             detail: Detail::default(),
         }
     }
@@ -305,6 +310,11 @@ impl Coating {
         Self { outline, ..self }
     }
 
+    /// Sets the [`masks`](Self::masks), which say where films begin weak or dirty.
+    pub fn with_masks(self, masks: impl Into<CoatingMasks>) -> Self {
+        Self { masks: masks.into(), ..self }
+    }
+
     /// Sets the colours and strengths of stains.
     pub fn with_stains(self, stains: StainShading) -> Self {
         Self { shading: FilmShading { stains, ..self.shading }, ..self }
@@ -319,6 +329,7 @@ impl Coating {
             past_weather: self.past_weather.filter(|_| self.start_age > 0.0 || self.painted.is_some()),
             painted: self.painted,
             steps_per_age: self.steps_per_age,
+            masks: self.masks.fingerprint(),
             detail: self.detail,
         }
     }
@@ -335,6 +346,8 @@ pub(crate) struct FilmKey {
     pub past_weather: Option<CoatingWeather>,
     pub painted: Option<f64>,
     pub steps_per_age: u32,
+    /// Number that tells masks apart.
+    pub masks: u64,
     pub detail: Detail,
 }
 
@@ -347,7 +360,7 @@ impl FilmKey {
     }
 
     /// Returns everything that keys are compared by.
-    fn bits(&self) -> (Option<u64>, FilmResolution, u32, [u64; 3], Option<[u32; 10]>, u32, [u32; 4]) {
+    fn bits(&self) -> (Option<u64>, FilmResolution, u32, [u64; 4], Option<[u32; 10]>, u32, [u32; 4]) {
         let (resolution, number) = match self.resolution {
             FilmResolution::EdgeLength(length) => (FilmResolution::EdgeLength(0.0), length.to_bits()),
             FilmResolution::Grain { share, max_triangles } => {
@@ -363,7 +376,7 @@ impl FilmKey {
         let Detail { level, chips, thickness, tolerance, .. } = self.detail;
         let detail = [level, chips.to_bits(), thickness.to_bits(), tolerance.to_bits()];
         let painted = self.painted.map_or([0, 0], |date| [1, date.to_bits()]);
-        let ages = [self.start_age.to_bits(), painted[0], painted[1]];
+        let ages = [self.start_age.to_bits(), painted[0], painted[1], self.masks];
         (self.seed, resolution, number, ages, weather, self.steps_per_age, detail)
     }
 }

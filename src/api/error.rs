@@ -2,7 +2,7 @@
 
 use bevy::{ecs::entity::Entity, mesh::PrimitiveTopology};
 
-use crate::{settings::SettingsError, surface::BuildError};
+use crate::{masks::MaskError, settings::SettingsError, surface::BuildError};
 
 /// Error that says why a prop could not be coated. The prop keeps its own mesh and material.
 ///
@@ -62,6 +62,23 @@ pub enum CoatingFault {
     /// Settings asset that could not be loaded.
     #[error("its settings could not be loaded; see the asset server's error")]
     SettingsNotLoaded,
+    /// Image of a mask that could not be loaded.
+    #[error("its mask image `{name}` could not be loaded; see the asset server's error")]
+    MaskNotLoaded {
+        /// Name of the image in [`CoatingMasks::images`](super::masks::CoatingMasks::images).
+        name: String,
+    },
+    /// Image of a mask that cannot be read: compressed, or on the GPU only.
+    #[error("its mask image `{name}` cannot be read: {cause}")]
+    MaskImage {
+        /// Name of the image in [`CoatingMasks::images`](super::masks::CoatingMasks::images).
+        name: String,
+        /// Reason in words, with the way out.
+        cause: String,
+    },
+    /// Mask that is out of range, or looks at something that the prop does not have.
+    #[error(transparent)]
+    Mask(#[from] MaskError),
     /// Setting that is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),

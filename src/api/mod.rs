@@ -16,6 +16,7 @@ pub(crate) mod film_pace;
 pub(crate) mod history;
 pub(crate) mod limits;
 pub(crate) mod links;
+pub(crate) mod masks;
 pub(crate) mod messages;
 pub(crate) mod outline;
 pub(crate) mod seed;

@@ -20,6 +20,7 @@ use super::{
     build::{FilmBuild, FilmOrder, build_film},
     finish::{keep_old, refuse},
     group::group_of,
+    masks::SharedImages,
     order::{FilmInputs, inputs_of},
     share::{area_of_film, area_of_slots, targets_of},
     suspects::suspects_of,
@@ -154,8 +155,9 @@ fn begin_films(
     refused: &Query<&FilmRefused>,
 ) {
     let mut found = Vec::with_capacity(candidates.len());
+    let mut images = SharedImages::new();
     for candidate in candidates {
-        match check_candidate(world, root, coating, &candidate) {
+        match check_candidate(world, root, coating, &candidate, &mut images) {
             Ok(inputs) => found.push((candidate, inputs)),
             Err(fault) if candidate.renews => keep_old(commands, candidate.film, root, coating.key(), fault),
             Err(fault) => {
@@ -187,7 +189,13 @@ fn begin_films(
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be coated.
-fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &Candidate) -> Waited<FilmInputs> {
+fn check_candidate(
+    world: &World,
+    root: Entity,
+    coating: &Coating,
+    candidate: &Candidate,
+    images: &mut SharedImages,
+) -> Waited<FilmInputs> {
     // The meshes of a film that is shown have been found opaque, and wear stained materials now.
     let unseen: &[Entity] = if candidate.renews { &[] } else { &candidate.slots };
     for &slot in unseen {
@@ -201,7 +209,7 @@ fn check_candidate(world: &World, root: Entity, coating: &Coating, candidate: &C
     let snapshot = world.get::<CoatingSnapshot>(root).filter(|_| !candidate.renews);
     let state = snapshot.and_then(|saved| saved.film_at(&written_path(world, root, candidate.film)));
     let saved = snapshot.zip(state).map(|(saved, state)| (state.clone(), saved.date));
-    inputs_of(world, candidate.film, root, &candidate.slots, coating, saved)
+    inputs_of(world, candidate.film, root, &candidate.slots, coating, saved, images)
 }
 
 /// Returns the seed that was drawn for the coating on `root`, also before it was saved, or draws it from its place.

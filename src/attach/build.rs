@@ -82,7 +82,8 @@ pub(crate) struct FilmReadiness {
 /// [`CoatingFault`] if the meshes cannot be read or no film can be built of them.
 pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, CoatingFault> {
     let FilmOrder { inputs, target, seed, paint } = order;
-    let FilmInputs { meshes, key, settings, quality, scale, past, target: most, shelter, saved, history, .. } = inputs;
+    let FilmInputs { target: most, shelter, saved, history, .. } = inputs;
+    let FilmInputs { meshes, key, settings, quality, masks, scale, past, .. } = inputs;
     let mut turn = Turn::begin();
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
@@ -93,6 +94,7 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     let mut film = FilmState::new(&built, &settings, seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
     film.quality = quality;
+    masks.apply(&mut film, &surface, &built)?;
     built.warnings.extend(coarser_than_grain(&film.mesh, key.resolution, target, &settings.scale));
     turn.rest().await;
     let mut display = FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint, key.detail)?;
@@ -203,7 +205,7 @@ mod tests {
     };
 
     use super::*;
-    use crate::{api::coating::Coating, deform::SolverQuality};
+    use crate::{api::coating::Coating, attach::masks::MaskOrder, deform::SolverQuality};
 
     /// Order for a cuboid of `start_age` in a hundred thousand steps an age.
     fn order(start_age: f64, settings: &Arc<CoatingSettings>) -> FilmOrder {
@@ -213,6 +215,7 @@ mod tests {
             key: coating.key(),
             settings: settings.clone(),
             quality: SolverQuality::Default,
+            masks: MaskOrder::default(),
             scale: Vec3::ONE,
             metres_per_unit: 1.0,
             past: vec![(start_age, Environment::default())],

@@ -15,10 +15,13 @@ mod build;
 mod copy;
 mod detach;
 mod discover;
+#[cfg(feature = "gltf")]
+mod extras;
 mod finish;
 mod follow;
 mod group;
 mod hierarchy;
+mod masks;
 mod order;
 mod recheck;
 mod share;
@@ -55,5 +58,7 @@ pub(crate) fn add_attachment(app: &mut App) {
             .chain()
             .in_set(CoatingAttach),
     );
+    #[cfg(feature = "gltf")]
+    app.add_systems(PostUpdate, extras::coat_by_extras.after(TransformSystems::Propagate).before(CoatingAttach));
     app.add_observer(detach::on_coating_removed).add_observer(detach::on_slot_removed);
 }

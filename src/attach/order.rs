@@ -13,6 +13,7 @@ use bevy::{
     transform::components::GlobalTransform,
 };
 
+use super::masks::{MaskOrder, SharedImages, masks_of};
 #[cfg(feature = "render")]
 use crate::{api::stain_display::StainDisplay, display::CoatedMaterial};
 use crate::{
@@ -41,6 +42,7 @@ pub(super) struct FilmInputs {
     pub key: FilmKey,
     pub settings: Arc<CoatingSettings>,
     pub quality: SolverQuality,
+    pub masks: MaskOrder,
     /// Scale from the meshes to the film, which is in metres.
     pub scale: Vec3,
     /// Metres that a unit of the world is long.
@@ -60,7 +62,8 @@ pub(super) struct FilmInputs {
 }
 
 /// Collects the inputs of a build; `None` while assets are loading or shelters are not known. `saved` is the state in
-/// which the film is to begin, with the date at which it was saved.
+/// which the film is to begin, with the date at which it was saved; `images` are copies that films of the coating
+/// share.
 ///
 /// # Errors
 /// [`CoatingFault`] if the meshes cannot be coated.
@@ -71,6 +74,7 @@ pub(super) fn inputs_of(
     slots: &[Entity],
     coating: &Coating,
     saved: Option<(Snapshot, f64)>,
+    images: &mut SharedImages,
 ) -> Waited<FilmInputs> {
     coating.validate()?;
     let Some(settings) = settings_of(world, &coating.settings)? else { return Ok(None) };
@@ -117,11 +121,15 @@ pub(super) fn inputs_of(
             return Ok(None);
         }
     }
+    // Last, as it copies images.
+    let film_gravity = past.environment(gravity, &transform).gravity;
+    let Some(masks) = masks_of(world, coating, film_gravity, images)? else { return Ok(None) };
     Ok(Some(FilmInputs {
         meshes: meshes.into_iter().cloned().collect(),
         key: coating.key(),
         settings,
         quality: coating.quality,
+        masks,
         scale: scale * metres_per_unit,
         metres_per_unit,
         past: lived,

@@ -4,8 +4,9 @@ use web_time::Instant;
 
 use super::{
     baked::Baked,
-    coat::{Coated, coat},
+    coat::{Coated, Prop, coat},
     error::BakeError,
+    extras::read_extras,
     leave::leave_alone,
     model::Model,
     options::BakeOptions,
@@ -46,7 +47,10 @@ pub fn bake(
     options.validate()?;
     let input = InputStats::of(&model.meshes);
     let mut model = model;
-    let left = leave_alone(&mut model, &options.exclude)?;
+    if options.extras {
+        read_extras(&mut model);
+    }
+    let left = leave_alone(&mut model, &options.exclude, options.extras)?;
     let Model { origin, copyright, meshes, materials, mut warnings, carried, .. } = model;
     let coated = stopwatch.build(|| coat(&origin, meshes, options))?;
     let Coated { props, mut films, warnings: built } = coated;
@@ -55,8 +59,8 @@ pub fn bake(
 
     stopwatch.build(|| shelter(&props, &mut films, &options.environment));
 
-    let film = FilmStats::of(&films, &options.settings.scale);
-    let timeline = age(&mut films, options, &mut stopwatch, progress);
+    let film = FilmStats::of(&films);
+    let timeline = age(&mut films, &props, options, &mut stopwatch, progress);
     for (film, prop) in films.iter().zip(&props) {
         film.validate().map_err(|cause| BakeError::Broken {
             origin: origin.clone(),
@@ -90,6 +94,7 @@ fn timeline_ages(age: f64) -> Vec<f64> {
 /// Ages the films, measuring them at every age of the timeline.
 fn age(
     films: &mut [FilmState],
+    props: &[Prop],
     options: &BakeOptions,
     stopwatch: &mut Stopwatch,
     progress: &dyn Progress,
@@ -101,16 +106,18 @@ fn age(
     for age in timeline_ages(options.age) {
         let step = clock.step_at(age);
         let start = Instant::now();
-        let mut runs: Vec<_> = films.iter_mut().map(|film| (film, StageTimes::default())).collect();
-        parallel::for_each(&mut runs, |(film, times)| {
+        let settings = props.iter().map(|prop| &prop.settings);
+        let mut runs: Vec<_> =
+            films.iter_mut().zip(settings).map(|(film, settings)| (film, settings, StageTimes::default())).collect();
+        parallel::for_each(&mut runs, |(film, settings, times)| {
             let work = film.mesh.topology.face_count() as u64;
             while film.clock.steps < step {
-                film.step_timed(&options.settings, &options.environment, times);
+                film.step_timed(settings, &options.environment, times);
                 progress.advance(work);
             }
         });
         let mut times = StageTimes::default();
-        runs.iter().for_each(|(_, own)| times.merge(own));
+        runs.iter().for_each(|(.., own)| times.merge(own));
         stopwatch.add_stages(&times, start.elapsed());
         timeline.push(FilmState::measure_all(films));
     }

@@ -12,7 +12,9 @@ use super::{
     warning::BakeWarning,
 };
 use crate::{
+    masks::{MaskError, MaskGround, apply_masks},
     remesh::{self, BuiltFilm, FilmTarget, film_targets},
+    settings::CoatingSettings,
     sim::{FilmState, PathStep, coarser_than_grain, film_seed},
     surface::{BuildError, Surface},
 };
@@ -34,9 +36,11 @@ pub struct Prop {
     pub place: Option<Place>,
     /// The film at rest.
     pub built: BuiltFilm,
-    /// Seed of the film. A prop alone has the seed of the options; of several props, each has one that follows from it
-    /// and from the prop's name.
+    /// Seed of the film. A prop alone has the seed of the options, or that of its custom properties; of several props,
+    /// each has one that follows from it and from the prop's name.
     pub seed: u64,
+    /// Settings of the film: those of the options, or of the prop's custom properties.
+    pub settings: CoatingSettings,
 }
 
 /// Props with their films.
@@ -75,7 +79,10 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
     let mut meshes = meshes;
     meshes.iter_mut().for_each(|mesh| into_metres(mesh, unit_of(mesh, options)));
     let areas: Vec<f64> = meshes.iter().map(|mesh| mesh.surface.area()).collect();
-    let targets = film_targets(options.resolution, options.settings.scale.grain, &areas);
+    if !options.extras {
+        meshes.iter_mut().for_each(|mesh| mesh.extras = None);
+    }
+    let targets = targets(&meshes, &areas, options);
     let seeds = film_seeds(options.seed, &meshes);
     let mut jobs: Vec<Job> = meshes
         .into_iter()
@@ -88,14 +95,29 @@ pub fn coat(origin: &str, meshes: Vec<ModelMesh>, options: &BakeOptions) -> Resu
     let mut coated = Coated::default();
     let mut nothing = None;
     for Job { mesh, result, seed, unit, .. } in jobs {
+        let settings = settings_of(&mesh, options).clone();
         let ModelMesh { name, surface, origin: at, slots, place, .. } = mesh;
         let broken = |source| BakeError::Broken { origin: origin.into(), mesh: name.clone(), source };
         match result {
-            Some(Ok((built, film))) => {
+            Some(Ok((_, _, Err(source)))) => {
+                return Err(BakeError::Mask { origin: origin.into(), mesh: name, source });
+            }
+            Some(Ok((built, film, Ok(())))) => {
                 let warnings = built.warnings.iter().cloned();
                 coated.warnings.extend(warnings.map(|warning| BakeWarning::Build { mesh: name.clone(), warning }));
                 coated.films.push(film.ok_or_else(|| broken(BrokenFilm::NotManifold))?);
-                coated.props.push(Prop { name, surface, origin: at, metres_per_unit: unit, slots, place, built, seed });
+                let metres_per_unit = unit;
+                coated.props.push(Prop {
+                    name,
+                    surface,
+                    origin: at,
+                    metres_per_unit,
+                    slots,
+                    place,
+                    built,
+                    seed,
+                    settings,
+                });
             }
             Some(Err(
                 source @ (BuildError::NoTriangles | BuildError::AllDegenerate { .. } | BuildError::Size { .. }),
@@ -136,7 +158,7 @@ struct Job {
     target: FilmTarget,
     unit: f32,
     seed: u64,
-    result: Option<Result<(BuiltFilm, Option<FilmState>), BuildError>>,
+    result: Option<Result<(BuiltFilm, Option<FilmState>, Result<(), MaskError>), BuildError>>,
 }
 
 impl Job {
@@ -145,37 +167,79 @@ impl Job {
         let is_own = own.is_some();
         let built = own.map_or_else(|| remesh::build_film(&self.mesh.surface, self.target, self.seed), Ok);
         self.result = Some(built.map(|mut built| {
-            let mut film = FilmState::new(&built, &options.settings, self.seed, options.steps);
+            let settings = settings_of(&self.mesh, options);
+            let mut film = FilmState::new(&built, settings, self.seed, options.steps);
+            let mut masked = Ok(());
             if let Some(film) = &mut film {
+                let (surface, gravity) = (&self.mesh.surface, options.environment.gravity);
+                let ground = MaskGround { surface, built: &built, gravity, images: &options.mask_images };
+                masked = apply_masks(film, &options.masks, &ground);
                 film.quality = options.quality;
                 // The resolution is not that of a film that came with its mesh.
-                let coarse = coarser_than_grain(&film.mesh, options.resolution, self.target, &options.settings.scale);
+                let coarse = coarser_than_grain(&film.mesh, options.resolution, self.target, &settings.scale);
                 built.warnings.extend(coarse.filter(|_| !is_own));
             }
-            (built, film)
+            (built, film, masked)
         }));
     }
 }
 
-/// Returns the seed of each film: that of the options, varied by the names of the meshes as the plugin varies a
-/// coating's seed. One mesh alone is the prop itself, and has the seed of the options.
+/// Returns the settings of a mesh: those of its custom properties, else of the options.
+fn settings_of<'a>(mesh: &'a ModelMesh, options: &'a BakeOptions) -> &'a CoatingSettings {
+    mesh.coating().map_or(&options.settings, |coating| &coating.settings)
+}
+
+/// Returns the target of each film. Triangles are shared between all of them; each is as fine as its own grain asks.
+fn targets(meshes: &[ModelMesh], areas: &[f64], options: &BakeOptions) -> Vec<FilmTarget> {
+    let grain_of = |mesh| settings_of(mesh, options).scale.grain;
+    let mut by_grain: BTreeMap<u32, Vec<FilmTarget>> = BTreeMap::new();
+    let mut target = |i: usize, mesh| {
+        let grain: f32 = grain_of(mesh);
+        let shared = || film_targets(options.resolution, grain, areas);
+        by_grain.entry(grain.to_bits()).or_insert_with(shared).get(i).copied().unwrap_or(FilmTarget::Keep)
+    };
+    meshes.iter().enumerate().map(|(i, mesh)| target(i, mesh)).collect()
+}
+
+/// Returns the seed of each film: that of its custom properties, else `seed`, varied by the names of the meshes as the
+/// plugin varies a coating's seed. A mesh that shares its seed and paint with no other is the prop itself, and has the
+/// seed as it is.
 fn film_seeds(seed: u64, meshes: &[ModelMesh]) -> Vec<u64> {
-    if let [_] = meshes {
-        return vec![seed];
-    }
-    let mut seen: BTreeMap<&str, u32> = BTreeMap::new();
-    let mut seed_of = |name| {
-        let number = seen.entry(name).or_default();
+    let own = |mesh: &ModelMesh| mesh.coating().and_then(|coating| coating.seed);
+    let mut sharing: BTreeMap<u64, usize> = BTreeMap::new();
+    meshes.iter().filter_map(own).for_each(|seed| *sharing.entry(seed).or_default() += 1);
+    let mut seen: BTreeMap<(Option<u64>, &str), u32> = BTreeMap::new();
+    let seed_of = |mesh| {
+        let own = own(mesh);
+        let base = own.unwrap_or(seed);
+        let alone = own.map_or(meshes.len(), |seed| sharing.get(&seed).copied().unwrap_or_default()) == 1;
+        let name = mesh.name.as_str();
+        let number = seen.entry((own, name)).or_default();
         let step = PathStep { name, number: *number };
         *number += 1;
-        film_seed(seed, &[step])
+        if alone { base } else { film_seed(base, &[step]) }
     };
-    meshes.iter().map(|mesh| seed_of(mesh.name.as_str())).collect()
+    meshes.iter().map(seed_of).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::extras::PropExtras;
+
+    #[test]
+    fn seeds_of_custom_properties_go_before_that_of_the_options() {
+        let mesh = |name: &str, seed| ModelMesh {
+            name: name.into(),
+            extras: PropExtras::read(&format!(r#"{{ "coating": true, "coating_seed": {seed} }}"#)).expect("extras"),
+            ..ModelMesh::default()
+        };
+        let plain = ModelMesh { name: "plain".into(), ..ModelMesh::default() };
+        let seeds = film_seeds(7, &[mesh("a", 3), plain.clone(), mesh("b", 4), mesh("c", 4)]);
+        assert_eq!(seeds[0], 3, "it is alone with its seed");
+        assert_eq!(seeds[1], film_seeds(7, &[plain.clone(), mesh("a", 3)])[0]);
+        assert!(seeds[2] != seeds[3] && ![4, 7].contains(&seeds[2]), "{seeds:?}");
+    }
 
     #[test]
     fn films_of_equal_meshes_have_seeds_of_their_own() {

@@ -7,7 +7,7 @@ use super::{
     limits::{MAX_AGE, MAX_STEPS_PER_AGE, TEXTURE_SIZES, UNITS},
     obj::ObjError,
 };
-use crate::{film::InvariantError, settings::SettingsError, surface::BuildError};
+use crate::{film::InvariantError, masks::MaskError, settings::SettingsError, surface::BuildError};
 
 /// Why a prop could not be aged, or the result not be written. Its text is one line: where, what, and where it helps,
 /// the way out.
@@ -68,6 +68,27 @@ pub enum BakeError {
         mesh: String,
         /// Why no film can be made of it.
         source: BuildError,
+    },
+    /// A mask cannot be put on a mesh.
+    #[error("{origin}: mesh {mesh:?}: {source}")]
+    Mask {
+        /// Name of the input.
+        origin: String,
+        /// Name of the mesh.
+        mesh: String,
+        /// Why not.
+        source: MaskError,
+    },
+    /// A mask, or a file of masks, cannot be used.
+    #[error(transparent)]
+    Masks(#[from] MaskError),
+    /// The image of a mask cannot be used.
+    #[error("{}: is no image for a mask: {cause}; save it as PNG or JPEG", path.display())]
+    MaskImage {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        cause: String,
     },
     /// A film is no sound film, or broke a rule of the method while it aged: a fault of this crate.
     #[error("{origin}: mesh {mesh:?}: the film is broken: {source}; please report this with the file and the options")]
@@ -148,6 +169,9 @@ pub enum OptionsError {
         /// Its range in words.
         range: &'static str,
     },
+    /// A mask is out of its range.
+    #[error(transparent)]
+    Mask(#[from] MaskError),
     /// A setting of the coating is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -4,18 +4,19 @@ use serde_json::Value;
 
 use super::{
     error::BakeError,
+    extras::excludes,
     model::{Model, ModelMesh, Slot},
     name_pattern::NamePattern,
     warning::BakeWarning,
 };
-use crate::surface::Surface;
+use crate::{extras::PropExtras, surface::Surface};
 
-/// Takes glass and excluded primitives out of a model's meshes, and meshes that have nothing else. Returns those that
-/// no document has, with the triangles that were taken out.
+/// Takes glass and excluded primitives out of a model's meshes, and meshes that have nothing else; with `extras` also
+/// what custom properties exclude. Returns those that no document has, with the triangles that were taken out.
 ///
 /// # Errors
 /// [`BakeError::AllLeftAlone`] if there are meshes and nothing of them is left to age.
-pub fn leave_alone(model: &mut Model, exclude: &[NamePattern]) -> Result<Vec<ModelMesh>, BakeError> {
+pub fn leave_alone(model: &mut Model, exclude: &[NamePattern], extras: bool) -> Result<Vec<ModelMesh>, BakeError> {
     let (mut glass, mut left, mut some) = (0, Vec::new(), false);
     let mut fits = vec![false; exclude.len()];
     let mut excluded = |name: Option<&str>| {
@@ -34,11 +35,11 @@ pub fn leave_alone(model: &mut Model, exclude: &[NamePattern]) -> Result<Vec<Mod
         let node_name = place.and_then(|place| model.carried.element("nodes", place.node)["name"].as_str());
         // All names are looked at, so that each pattern knows whether it fits something.
         let names = [Some(mesh.name.as_str()), mesh_name, node_name].map(&mut excluded);
-        let whole = names.contains(&true);
+        let whole = names.contains(&true) || (extras && mesh.extras == Some(PropExtras::Exclude));
         let mut alone = Vec::with_capacity(mesh.slots.len());
         for Slot { material, .. } in &mesh.slots {
             let material = material.and_then(|m| model.materials.materials.get(m)).unwrap_or(&Value::Null);
-            let by_name = excluded(material["name"].as_str()) || whole;
+            let by_name = excluded(material["name"].as_str()) || whole || (extras && excludes(material));
             let is_glass = is_glass(material);
             glass += usize::from(is_glass && !by_name);
             alone.push(by_name || is_glass);
@@ -137,7 +138,7 @@ mod tests {
         let transmissive = json!({ "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.9 } } });
         for glass in [json!({ "alphaMode": "BLEND" }), transmissive] {
             let mut model = model(glass);
-            let left = leave_alone(&mut model, &[]).expect("paint");
+            let left = leave_alone(&mut model, &[], true).expect("paint");
             assert_eq!(model.meshes[0].surface.triangles, [[0, 1, 2]]);
             assert_eq!(model.meshes[0].surface.uvs, [0.0, 1.0, 2.0].map(Vec2::splat));
             assert_eq!((left[0].surface.triangles[..].to_vec(), left[0].surface.slots[0]), (vec![[1, 2, 3]], 1));
@@ -150,7 +151,7 @@ mod tests {
         let opaque = json!({ "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.0 } } });
         for paint in [json!({ "alphaMode": "MASK" }), opaque, json!({})] {
             let mut model = model(paint);
-            assert!(leave_alone(&mut model, &[]).expect("paint").is_empty());
+            assert!(leave_alone(&mut model, &[], true).expect("paint").is_empty());
             assert_eq!((model.meshes[0].surface.triangles.len(), model.warnings.len()), (2, 0));
         }
     }
@@ -158,10 +159,10 @@ mod tests {
     #[test]
     fn names_exclude_meshes_and_materials() {
         let mut by_material = model(json!({ "name": "chrome trim" }));
-        leave_alone(&mut by_material, &["chrome*".into(), "nothing".into()]).expect("paint");
+        leave_alone(&mut by_material, &["chrome*".into(), "nothing".into()], true).expect("paint");
         assert_eq!(by_material.meshes[0].surface.slots, [0]);
         assert_eq!(by_material.warnings, [BakeWarning::NothingExcluded { pattern: "nothing".into() }]);
         let mut all = model(json!({}));
-        assert!(matches!(leave_alone(&mut all, &["do?r".into()]), Err(BakeError::AllLeftAlone { .. })));
+        assert!(matches!(leave_alone(&mut all, &["do?r".into()], true), Err(BakeError::AllLeftAlone { .. })));
     }
 }

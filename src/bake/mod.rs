@@ -44,7 +44,8 @@
 //! lights, extras, extensions that nobody here knows, and names stay as they are, and every index in it holds. Each
 //! coated node gets a mesh of its own, in the node's space. Base colour, metalness, roughness and normals are baked
 //! together with the stains where stains are written into textures. Glass, primitives of points and lines, and what
-//! [`BakeOptions::exclude`] names are left as they are. What must go, such as morph targets, is named in one
+//! [`BakeOptions::exclude`] names are left as they are, and so is what custom properties say is not painted
+//! ([`extras`](crate::extras)). What must go, such as morph targets, is named in one
 //! [`BakeWarning`] a kind.
 
 mod age;
@@ -53,12 +54,14 @@ mod carried;
 mod coat;
 mod dump;
 mod error;
+mod extras;
 mod glb;
 mod gltf;
 mod images;
 mod input;
 mod leave;
 mod limits;
+mod mask_files;
 mod media;
 mod model;
 mod name_pattern;
@@ -86,6 +89,7 @@ pub use gltf::GltfError;
 pub use images::Images;
 pub use input::{Input, InputError, TestPiece};
 pub use limits::{MAX_AGE, MAX_STEPS_PER_AGE, MAX_TRIANGLES, TEXTURE_SIZES, UNITS};
+pub use mask_files::MaskFiles;
 pub use model::{Image, Instance, MaterialLibrary, Model, ModelMesh, Place, Slot};
 pub use name_pattern::NamePattern;
 pub use obj::ObjError;

@@ -6,7 +6,7 @@ use bevy_math::{DMat4, DVec3, Quat, Vec3};
 use serde_json::Value;
 
 use super::{carried::Carried, warning::BakeWarning};
-use crate::{remesh::BuiltFilm, surface::Surface};
+use crate::{extras::PropExtras, remesh::BuiltFilm, surface::Surface};
 
 /// Everything that a file holds and ageing needs. Read it from a file with [`Input::read`](super::Input::read), from
 /// bytes with [`from_gltf`](Self::from_gltf) or [`from_obj`](Self::from_obj), or put it together.
@@ -45,6 +45,9 @@ pub struct ModelMesh {
     pub film: Option<BuiltFilm>,
     /// Place in the document that the model was read from; `None`: the aged mesh gets a node of its own.
     pub place: Option<Place>,
+    /// Paint by its custom properties, which [`bake`](super::bake()) reads; `None`: it is as
+    /// [`BakeOptions::settings`](super::BakeOptions::settings) say.
+    pub extras: Option<PropExtras>,
 }
 
 /// Place of a mesh in the document that a model was read from.

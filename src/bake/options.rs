@@ -6,7 +6,12 @@ use super::{
     name_pattern::NamePattern,
 };
 use crate::{
-    appearance::Detail, deform::SolverQuality, remesh::FilmResolution, settings::CoatingSettings, stain::Environment,
+    appearance::Detail,
+    deform::SolverQuality,
+    masks::{CoatingMask, MaskImages},
+    remesh::FilmResolution,
+    settings::CoatingSettings,
+    stain::Environment,
 };
 
 /// Options of ageing.
@@ -50,6 +55,13 @@ pub struct BakeOptions {
     /// Names of nodes, meshes and materials that are left as they are, beside glass, which always is; default none. See
     /// [`NamePattern`] for the wildcards.
     pub exclude: Vec<NamePattern>,
+    /// Whether custom properties of a model say how it is painted ([`extras`](crate::extras)); default true. What they
+    /// say goes before [`settings`](Self::settings) and [`seed`](Self::seed).
+    pub extras: bool,
+    /// Masks of the films: where they are weak or dirty from the start; default none. They act on all meshes.
+    pub masks: Vec<CoatingMask>,
+    /// Images that the masks name; default none.
+    pub mask_images: MaskImages,
     /// How finely the aged model is written; default level 0, the triangles of the films.
     pub detail: Detail,
 }
@@ -67,13 +79,16 @@ impl Default for BakeOptions {
             seed: 0,
             environment: Environment::default(),
             exclude: Vec::new(),
+            extras: true,
+            masks: Vec::new(),
+            mask_images: MaskImages::new(),
             detail: Detail::default(),
         }
     }
 }
 
 impl BakeOptions {
-    /// Checks age, steps, unit, resolution and settings against their ranges.
+    /// Checks age, steps, unit, resolution, masks and settings against their ranges.
     ///
     /// # Errors
     /// [`OptionsError`] for the first that is out of its range.
@@ -90,6 +105,9 @@ impl BakeOptions {
         self.resolution.validate().map_err(OptionsError::Resolution)?;
         if let Some((field, found, range)) = self.detail.out_of_range() {
             return Err(OptionsError::Detail { field, found, range });
+        }
+        for mask in &self.masks {
+            mask.validate()?;
         }
         Ok(self.settings.validate()?)
     }

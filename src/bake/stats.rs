@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::{model::ModelMesh, stopwatch::Seconds};
 use crate::{
     film::{FaceId, HalfEdgeId},
-    settings::ScaleSettings,
     sim::{FilmMeasures, FilmState},
 };
 
@@ -116,8 +115,8 @@ impl InputStats {
 
 impl FilmStats {
     /// Measures films, as they were at rest whatever their age.
-    pub(super) fn of(films: &[FilmState], scale: &ScaleSettings) -> Self {
-        let grains = films.iter().filter_map(|film| scale.grain_of(&film.mesh.geometry));
+    pub(super) fn of(films: &[FilmState]) -> Self {
+        let grains = films.iter().filter_map(|film| film.forces.grain());
         let mut stats = Self { grain: grains.map(|grain| grain.length).collect(), ..Self::default() };
         let (mut sum, mut squares, mut edges) = (0.0f64, 0.0f64, 0u64);
         let mut least_angle = f64::INFINITY;

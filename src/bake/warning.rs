@@ -3,7 +3,10 @@
 use std::mem::discriminant;
 
 use super::printable::Printable;
-use crate::surface::{BuildError, BuildWarning};
+use crate::{
+    extras::ExtrasError,
+    surface::{BuildError, BuildWarning},
+};
 
 /// Something of a model that was left out, changed or put right. Where it is about one mesh, its text begins with the
 /// name of that, control characters escaped.
@@ -82,6 +85,23 @@ pub enum BakeWarning {
     NothingExcluded {
         /// Text of the pattern.
         pattern: String,
+    },
+    /// Custom properties of the mesh cannot be used, so it is left as it is.
+    #[error("{}: is left as it is: {}", Printable(mesh), Printable(&cause.to_string()))]
+    CustomProperties {
+        /// Name of the mesh.
+        mesh: String,
+        /// Why they cannot be used.
+        cause: ExtrasError,
+    },
+    /// Materials of the mesh say how it is painted, but not all alike, and a mesh has one film.
+    #[error(
+        "{}: its materials have different coatings, but a mesh has one film: give the object a property `coating`",
+        Printable(mesh)
+    )]
+    MaterialPaint {
+        /// Name of the mesh.
+        mesh: String,
     },
     /// Other materials of material variants were left out on paint, because stains are baked into the first.
     #[error("{}: its paint has one material in all variants, as stains are baked into that", Printable(mesh))]

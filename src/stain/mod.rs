@@ -11,6 +11,7 @@
 //! [`TICKS_PER_AGE`] make a unit of age; only [`update_stains`] runs in every step. A tick of any length is stable:
 //! run-off is solved implicitly, from the highest vertex to the lowest, and everything else by exponentials.
 
+mod begin;
 mod catchments;
 mod corrosion;
 mod digest;

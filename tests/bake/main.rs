@@ -5,6 +5,7 @@ mod strict;
 mod tool;
 
 mod carried;
+mod extras;
 mod faulty;
 mod figures;
 mod files;

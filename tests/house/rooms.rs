@@ -17,7 +17,7 @@ const LADDER: [&[&str]; 14] = [
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
     &["sim"],
-    &["snapshot"],
+    &["extras", "masks", "snapshot"],
     &["history"],
     &["appearance"],
     &["bake"],
@@ -29,7 +29,7 @@ const LADDER: [&[&str]; 14] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 14] = [
+const CORE: [&str; 16] = [
     "coding",
     "files",
     "settings",
@@ -40,6 +40,8 @@ const CORE: [&str; 14] = [
     "deform",
     "stain",
     "sim",
+    "extras",
+    "masks",
     "snapshot",
     "history",
     "appearance",

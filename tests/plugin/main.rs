@@ -22,10 +22,13 @@ mod clones;
 mod detail;
 mod display;
 mod edits;
+#[cfg(feature = "gltf")]
+mod extras;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]
 mod mask_picture;
+mod masks;
 #[cfg(feature = "render")]
 mod outline;
 #[cfg(feature = "render")]
@@ -34,6 +37,7 @@ mod parts;
 mod picture;
 mod rebuilding;
 mod recovery;
+mod reflection;
 mod rest;
 mod saving;
 mod seeds;

@@ -22,6 +22,7 @@ fn square(uvs: [[f32; 2]; 4], slot: Slot) -> (Prop, FilmState) {
     let built = build_film(&surface, FilmTarget::Triangles(200), 0).expect("a film");
     let film = FilmState::new(&built, &CoatingSettings::default(), 0, 100).expect("a film");
     let prop = Prop {
+        settings: CoatingSettings::default(),
         name: "square".into(),
         surface,
         origin: Vec3::ZERO,

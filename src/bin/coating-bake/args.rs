@@ -8,7 +8,7 @@ use std::{
 
 use bevy_coating::{
     appearance::Detail,
-    bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, NamePattern, StainOutput},
+    bake::{BakeOptions, Input, MAX_STEPS_PER_AGE, MaskFiles, NamePattern, StainOutput},
     deform::SolverQuality,
     film::FaceGrid,
     remesh::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution},
@@ -86,7 +86,15 @@ pub struct Args {
     /// Leave nodes, meshes and materials of this name as they are; * and ? stand for any characters; may be repeated
     #[arg(long, value_name = "NAME", allow_hyphen_values = true, value_parser = parse_pattern)]
     exclude: Vec<NamePattern>,
-    /// Settings: default, few_cracks, gentle, harsh, heavy, paper, or a file that ends in .ron
+    /// Ignore custom properties of models that say how they are painted, such as `coating`
+    #[arg(long)]
+    ignore_extras: bool,
+    /// Masks: a .ron file of them, or an image or a rule (edges, lower, under, noise, color) with what it does where
+    /// it is 0 and 1: wear.png:adhesion=1..0.2,rust=0..0.5; may be repeated
+    #[arg(long = "mask", value_name = "FILE.ron|WHERE:EFFECT=A..B")]
+    masks: Vec<String>,
+    /// Settings: chalky_whitewash, default, desert_sun, few_cracks, fresh_enamel, gentle, harsh, heavy, marine,
+    /// old_lead_paint, paper, powder_coat, or a file that ends in .ron
     #[arg(long, value_name = "NAME|FILE.ron", default_value = "default")]
     preset: String,
     /// Change one setting, such as tearing.beta=0.3; may be repeated
@@ -184,11 +192,21 @@ impl Args {
         self.triangles.or(self.edge).unwrap_or(by_grain)
     }
 
-    /// How to age. Ends the program with code 2 on an unknown preset or setting.
+    /// The masks with their images.
+    ///
+    /// # Errors
+    /// [`Failure`] if a mask is none or has a file that cannot be used.
+    pub fn masks(&self) -> Result<MaskFiles, Failure> {
+        let mut masks = MaskFiles::default();
+        self.masks.iter().try_for_each(|text| masks.add(text))?;
+        Ok(masks)
+    }
+
+    /// How to age, with `masks`. Ends the program with code 2 on an unknown preset or setting.
     ///
     /// # Errors
     /// [`Failure`] if the settings are a file that cannot be used.
-    pub fn options(&self) -> Result<BakeOptions, Failure> {
+    pub fn options(&self, masks: MaskFiles) -> Result<BakeOptions, Failure> {
         let mut settings = if let Some(file) = self.preset_file() {
             let text = read_text(file).map_err(|source| Failure::Preset { file: self.preset.clone(), source })?;
             CoatingSettings::from_ron(&text, &self.preset)?
@@ -204,7 +222,11 @@ impl Args {
             settings.set(path, value).unwrap_or_else(|error| usage_error(&error.to_string()));
         }
         settings.validate()?;
+        let MaskFiles { masks, images: mask_images, .. } = masks;
         Ok(BakeOptions {
+            extras: !self.ignore_extras,
+            masks,
+            mask_images,
             resolution: self.resolution(),
             metres_per_unit: self.metres_per_unit,
             settings,

@@ -39,13 +39,13 @@ impl Job {
 ///
 /// # Errors
 /// [`Failure`] if a folder of inputs cannot be read or is empty, or an output cannot be written.
-pub fn list(args: &Args) -> Result<Vec<Job>, Failure> {
+pub fn list(args: &Args, mask_files: &[PathBuf]) -> Result<Vec<Job>, Failure> {
     let jobs = if is_batch(args) { batch(args)? } else { vec![single(args)?] };
     for folder in [&args.out_dir, &args.stats_dir].into_iter().flatten() {
         fs::create_dir_all(folder).map_err(|source| BakeError::Write { path: folder.clone(), source })?;
     }
     let mut places = StagedFiles::default();
-    args.preset_file().into_iter().for_each(|file| places.guard(file));
+    args.preset_file().into_iter().chain(mask_files.iter().map(PathBuf::as_path)).for_each(|file| places.guard(file));
     for job in &jobs {
         if let Input::File(path) = &job.input {
             places.guard(path);

@@ -51,8 +51,10 @@ fn main() -> ExitCode {
 
 /// Bakes all inputs; returns whether none failed.
 fn run_all(args: &Args, stopwatch: Stopwatch) -> Result<bool, Failure> {
-    let options = args.options()?;
-    let jobs = jobs::list(args)?;
+    let masks = args.masks()?;
+    let mask_files = masks.files.clone();
+    let options = args.options(masks)?;
+    let jobs = jobs::list(args, &mask_files)?;
     if !jobs::is_batch(args) {
         jobs.iter().try_for_each(|job| run(args, job, &options, stopwatch))?;
         return Ok(true);
