@@ -138,7 +138,6 @@ mod gizmos;
 pub mod guide;
 pub mod heat;
 pub mod history;
-pub mod masks;
 #[cfg(feature = "plugin")]
 mod inspect;
 pub mod masks;

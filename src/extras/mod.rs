@@ -15,7 +15,8 @@
 //!
 //! let json = r#"{ "coating": "harsh", "coating.adhesion.mean": 1.8, "coating_seed": 7, "mass": 3 }"#;
 //! let extras = PropExtras::read(json)?;
-//! let Some(PropExtras::Coat(PropCoating { settings, seed, .. })) = extras else { panic!("a coating") };
+//! let Some(PropExtras::Coat(coating)) = extras else { panic!("a coating") };
+//! let PropCoating { settings, seed, .. } = *coating;
 //! assert_eq!((settings.adhesion.mean, seed), (1.8, Some(7)));
 //!
 //! assert_eq!(PropExtras::read(r#"{ "mass": 3 }"#)?, None);
