@@ -6,6 +6,7 @@
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`masks`] | where paint is weak or dirty from the start; custom properties of models |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
+//! | [`touching`] | shooting, washing, painting again; brushes, undo, debris |
 //! | [`panel`] | a panel for all settings, heat maps, gizmos |
 //! | [`baking`] | ageing model files without an engine |
 //! | [`ratings`] | what lies where on a film, shares by area, ratings by ISO and ASTM |
@@ -25,6 +26,7 @@ macro_rules! links {
 [settings]: crate::guide::settings
 [masks]: crate::guide::masks
 [stains]: crate::guide::stains
+[touching]: crate::guide::touching
 [panel]: crate::guide::panel
 [baking]: crate::guide::baking
 [ratings]: crate::guide::ratings
@@ -54,6 +56,11 @@ pub mod masks {}
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/stains.md"))]
 #[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
 pub mod stains {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/touching.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod touching {}
 
 #[doc = links!()]
 #[cfg_attr(feature = "panel", doc = include_str!("../docs/panel.md"))]

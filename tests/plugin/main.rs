@@ -42,6 +42,8 @@ mod panel;
 mod parts;
 #[cfg(feature = "render")]
 mod picture;
+#[cfg(feature = "tools")]
+mod pointing;
 mod rebuilding;
 mod recovery;
 mod reflection;
