@@ -75,8 +75,8 @@ impl MaskFactors {
         Ok(factors)
     }
 
-    /// Puts the factors and stains on a fresh film. What has a factor of 1 keeps its bits, and goes on following the
-    /// settings; what has another is set by hand ([`FilmForces`](crate::fracture::FilmForces)).
+    /// Puts the factors and stains on a fresh film. What has a factor of 1 keeps its bits, and all of it goes on
+    /// following the settings.
     ///
     /// # Errors
     /// [`MaskError::NotFresh`] if the film has taken a step, [`MaskError::OtherFilm`] if it has other vertices. The
@@ -93,32 +93,28 @@ impl MaskFactors {
         let at = |factors: &[f32], v: usize| factors.get(v).copied().unwrap_or(1.0);
         for v in topology.all_vertices() {
             let factor = at(&self.adhesion, v.index());
-            if factor != 1.0 {
-                forces.set_adhesion(v, scaled(forces.adhesion(v), factor));
+            // A force without end stays so, whatever the factor.
+            if factor != 1.0 && forces.adhesion(v).is_finite() {
+                forces.scale_adhesion(v, factor);
             }
         }
         for h in topology.all_edges() {
             let ends = [topology.origin(h), topology.target(h)].map(|v| at(&self.binding, v.index()));
             let factor = 0.5 * (ends[0] + ends[1]);
-            if factor != 1.0 {
-                forces.set_binding(topology, h, scaled(forces.binding(topology, h), factor));
+            if factor != 1.0 && forces.binding(topology, h).is_finite() {
+                forces.scale_binding(topology, h, factor);
             }
         }
         for f in topology.all_faces() {
             let [a, b, c] = topology.corners(f).map(|v| at(&self.contraction, v.index()));
             if [a, b, c] != [1.0; 3] {
                 let factor = (a + b + c) / 3.0;
-                forces.set_contraction(topology, f, scaled(forces.contraction(f), factor));
+                forces.scale_contraction(topology, f, factor);
             }
         }
         film.stains.begin_with(&self.dust, &self.rust, &self.moisture);
         Ok(())
     }
-}
-
-/// Returns `force` times `factor`. A force without end stays so, whatever the factor.
-fn scaled(force: f32, factor: f32) -> f32 {
-    if force.is_finite() { (force * factor).min(f32::MAX) } else { force }
 }
 
 /// Puts `masks` on a fresh film: the forces that they scale, and the stains that it begins with.

@@ -332,3 +332,26 @@ fn lists_of_masks_are_read_and_faults_have_a_place() {
         assert!(error.starts_with(part), "{text}: {error}");
     }
 }
+
+#[test]
+fn what_masks_scale_goes_on_following_settings() {
+    let prop = Prop::plate(100);
+    let mut film = prop.film();
+    let effect = MaskEffect {
+        adhesion: Span(1.0, 0.5),
+        binding: Span(1.0, 2.0),
+        contraction: Span(1.0, 3.0),
+        ..MaskEffect::default()
+    };
+    apply_masks(&mut film, &[CoatingMask { mask: Mask::Even(1.0), effect }], &prop.ground()).unwrap();
+    let mut settings = CoatingSettings::default();
+    (settings.adhesion.mean, settings.adhesion.deviation) = (2.0, 0.0);
+    (settings.tearing.binding, settings.tearing.weak_probability) = (4.0, 0.0);
+    settings.tearing.contraction = 1.5;
+    film.forces.follow_settings(&film.mesh, &settings);
+    let (topology, forces) = (&film.mesh.topology, &film.forces);
+    assert!(topology.all_vertices().all(|v| (forces.adhesion(v) - 1.0).abs() < 1e-6));
+    assert!(topology.all_faces().all(|f| (forces.contraction(f) - 4.5).abs() < 1e-5));
+    let bound = topology.all_edges().filter(|&h| topology.bound_twin(h).is_some());
+    assert!(bound.into_iter().all(|h| (forces.binding(topology, h) - 8.0).abs() < 1e-5));
+}
