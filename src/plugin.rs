@@ -1,10 +1,13 @@
 //! Defines the Bevy plugin, which adds all resources, messages, schedules and systems.
 
 use bevy::{
-    app::{App, Plugin, Update},
+    app::{App, Plugin, PostUpdate, Update},
     ecs::{
+        event::Event,
         intern::Interned,
+        message::{Message, MessageReader},
         schedule::{IntoScheduleConfigs, ScheduleLabel},
+        system::Commands,
     },
 };
 
@@ -18,7 +21,7 @@ use crate::{
             AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
         },
         status::CoatingStatus,
-        system_sets::CoatingAdvance,
+        system_sets::{CoatingAdvance, CoatingDisplay},
         unit::CoatingUnit,
         weather::CoatingWeather,
     },
@@ -104,5 +107,30 @@ impl Plugin for CoatingWeatheringPlugin {
         let travels = (timeline::follow_histories, timeline::hand_out_ages, timeline::travel).chain();
         app.add_systems(self.schedule, (checks, travels, stepping::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(FilmDisplayPlugin);
+        app.add_systems(
+            PostUpdate,
+            (
+                announce::<FilmReady>,
+                announce::<FilmFailed>,
+                announce::<FirstCrack>,
+                announce::<PieceFallen>,
+                announce::<FilmRepainted>,
+                announce::<RatingReached>,
+                announce::<AgeReached>,
+                announce::<RestoreFailed>,
+            )
+                .chain()
+                .after(CoatingDisplay),
+        );
+    }
+}
+
+/// Tells observers what messages say.
+fn announce<E>(mut told: MessageReader<E>, mut commands: Commands)
+where
+    E: Message + Clone + for<'a> Event<Trigger<'a>: Default>,
+{
+    for message in told.read() {
+        commands.trigger(message.clone());
     }
 }

@@ -1,9 +1,12 @@
 //! Defines the messages that the plugin sends.
+//!
+//! Each is also an event that observers get, of the film's entity and of all above it: the plugin triggers it at the end
+//! of the frame in which it was sent.
 
 use std::sync::Arc;
 
 use bevy::{
-    ecs::{entity::Entity, message::Message},
+    ecs::{entity::Entity, event::EntityEvent, message::Message},
     math::Vec3,
 };
 
@@ -46,7 +49,25 @@ use crate::{
 /// # }
 /// # panic!("no film was built");
 /// ```
-#[derive(Message, Clone, Debug)]
+///
+/// Like all messages of the plugin it is an event for observers, too, of the film's entity or any above it:
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// # let mesh = app.world_mut().resource_mut::<Assets<Mesh>>().add(Cuboid::default());
+/// # let mut commands = app.world_mut().commands();
+/// commands.spawn((Mesh3d(mesh), Coating::default())).observe(|ready: On<FilmReady>| {
+///     info!("painted with {} triangles", ready.triangles);
+/// });
+/// # app.update();
+/// ```
+#[derive(Message, EntityEvent, Clone, Debug)]
+#[entity_event(propagate, auto_propagate)]
 pub struct FilmReady {
     /// Entity of the film.
     pub entity: Entity,
@@ -79,7 +100,8 @@ pub struct FilmReady {
 /// app.add_systems(Update, complain);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Debug)]
+#[derive(Message, EntityEvent, Clone, Debug)]
+#[entity_event(propagate, auto_propagate)]
 pub struct FilmFailed {
     /// Entity on which the film would have been.
     pub entity: Entity,
@@ -107,7 +129,8 @@ pub struct FilmFailed {
 /// app.add_systems(Update, play_crack);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
 pub struct FirstCrack {
     /// Entity of the film.
     pub entity: Entity,
@@ -141,7 +164,8 @@ pub struct FirstCrack {
 /// app.add_systems(Update, warn_of_rust);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
 pub struct RatingReached {
     /// Entity of the film.
     pub entity: Entity,
@@ -177,7 +201,8 @@ pub struct RatingReached {
 /// app.add_systems(Update, spawn_debris);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
 pub struct PieceFallen {
     /// Entity of the film.
     pub entity: Entity,
@@ -209,7 +234,8 @@ pub struct PieceFallen {
 /// app.add_systems(Update, praise);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
 pub struct FilmRepainted {
     /// Entity of the film.
     pub entity: Entity,
@@ -256,7 +282,8 @@ impl FilmRepainted {
 /// app.add_systems(Update, announce);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
 pub struct AgeReached {
     /// Entity of the film.
     pub entity: Entity,
@@ -284,7 +311,8 @@ pub struct AgeReached {
 /// app.add_systems(Update, complain);
 /// app.update();
 /// ```
-#[derive(Message, Clone, Debug)]
+#[derive(Message, EntityEvent, Clone, Debug)]
+#[entity_event(propagate, auto_propagate)]
 pub struct RestoreFailed {
     /// Entity of the film.
     pub entity: Entity,

@@ -223,3 +223,30 @@ fn flakes_fall_land_and_vanish() {
     app.update();
     assert!(app.world().resource::<Assets<Mesh>>().len() <= before, "meshes go with their flakes");
 }
+
+#[test]
+fn observers_of_a_prop_hear_what_happens_to_its_films() {
+    #[derive(Resource, Default)]
+    struct Heard(Vec<&'static str>);
+    let mut app = app();
+    app.init_resource::<Heard>();
+    let root = app.world_mut().spawn((Transform::default(), Visibility::default(), quick_coating())).id();
+    let mesh = add_mesh(&mut app, plate(12));
+    app.world_mut().spawn((Mesh3d(mesh), ChildOf(root)));
+    app.world_mut()
+        .entity_mut(root)
+        .observe(|_: On<FilmReady>, mut heard: ResMut<Heard>| heard.0.push("ready"))
+        .observe(|_: On<PieceFallen>, mut heard: ResMut<Heard>| heard.0.push("piece"))
+        .observe(|_: On<FilmRepainted>, mut heard: ResMut<Heard>| heard.0.push("painted"));
+    wait_for_films(&mut app, 1);
+    app.update();
+    assert_eq!(app.world().resource::<Heard>().0, ["ready"]);
+    app.world_mut().commands().entity(root).hit(Vec3::new(0.5, 0.5, 0.0), 0.3, 20.0);
+    app.update();
+    app.update();
+    app.world_mut().commands().entity(root).repaint(Vec3::new(0.5, 0.5, 0.0), 9.0);
+    app.update();
+    app.update();
+    let heard = &app.world().resource::<Heard>().0;
+    assert!(heard.len() > 2 && heard[1] == "piece" && heard.last() == Some(&"painted"), "{heard:?}");
+}
