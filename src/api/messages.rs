@@ -115,7 +115,7 @@ pub struct FirstCrack {
 /// for each rating.
 ///
 /// It is not sent for ratings with which a film appears, nor when a film goes back in time; afterwards it tells of
-/// ratings anew. The film's [`FilmSummary`](super::summary::FilmSummary) has all figures.
+/// ratings again. The film's [`FilmSummary`](super::summary::FilmSummary) has all figures.
 ///
 /// ```
 /// use bevy::prelude::*;

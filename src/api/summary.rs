@@ -43,7 +43,7 @@ pub struct FilmSummary {
     pub ratings: Ratings,
 }
 
-/// What keeps the [`FilmSummary`] of a film up to date, and where the film is.
+/// Survey that keeps the [`FilmSummary`] of a film up to date, and the place of the film.
 #[derive(Component, Clone, Debug, Default)]
 #[component(clone_behavior = Ignore)]
 pub(crate) struct FilmSurveyed {

@@ -96,7 +96,7 @@ fn timeline_ages(age: f64) -> Vec<f64> {
     ages
 }
 
-/// What was measured while films were aged.
+/// Figures that were measured while films were aged.
 #[derive(Default)]
 struct Aged {
     timeline: Vec<FilmMeasures>,

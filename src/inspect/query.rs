@@ -27,7 +27,7 @@ pub struct FilmHit {
     pub entity: Entity,
     /// Entity with the film's `Coating`.
     pub root: Entity,
-    /// What is there. Positions, normal and distance are those in the world.
+    /// Place of the film. Positions, normal and distance are those in the world.
     pub point: FilmPoint,
 }
 

@@ -2,7 +2,7 @@
 
 use super::shares::share;
 
-/// What lies in an area, of one film or of several together.
+/// Contents of an area, of one film or of several together.
 ///
 /// Shares and means are over all of the area, film and bare metal, each place counted by its area at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

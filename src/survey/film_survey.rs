@@ -39,7 +39,7 @@ pub struct FilmSurvey {
     shares: FilmShares,
 }
 
-/// What tells whether a film has changed.
+/// Marks that tell whether a film has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Seen {
     torn: u32,

@@ -8,7 +8,7 @@ use crate::{
     stain::StainLayer,
 };
 
-/// What a place shows.
+/// Side or material that a place shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmSurface {
     /// Front of the paint.
@@ -31,7 +31,7 @@ impl FilmSurface {
 /// One place of a film, or of the metal that a film has left bare.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmPoint {
-    /// What is there.
+    /// Side of the film or state of the metal that is there.
     pub surface: FilmSurface,
     /// Face of the film at the place; for metal the face that lay or lies over it.
     pub face: FaceId,

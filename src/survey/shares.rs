@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub struct FilmShares {
     /// Area of the whole, in square metres.
     pub area: f64,
@@ -106,7 +106,7 @@ impl FilmShares {
     }
 }
 
-/// Which of the [shares](FilmShares) of a film is meant.
+/// Name of one of the [shares](FilmShares) of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Share {

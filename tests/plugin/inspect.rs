@@ -5,7 +5,7 @@ use bevy_coating::{
     FilmEdit, FilmHit, FilmQuery,
     film::FilmMesh,
     prelude::*,
-    survey::{FilmArea, FilmSurface, Rating, Ratings},
+    survey::{FilmArea, FilmShares, FilmSurface, Rating, Ratings},
 };
 
 use crate::common::*;
@@ -50,8 +50,14 @@ fn summaries_follow_their_films_and_rest_with_them() {
     for steps in [30, 1, 40, 60] {
         take_steps(&mut app, steps);
         let (found, film) = (summary(&app, plate), film_state(&app, plate));
-        assert_eq!(found.shares, film.shares());
-        assert_eq!(found.ratings, Ratings::from(&film.shares()));
+        assert_eq!(found.ratings, Ratings::from(&found.shares));
+        // Stains may have crept on, less than can be seen.
+        let now = film.shares();
+        assert_eq!((found.shares.gone, found.shares.cracks), (now.gone, now.cracks));
+        assert_eq!((found.shares.separated, found.shares.crack_density), (now.separated, now.crack_density));
+        let stains = |s: &FilmShares| [s.rusted, s.stained, s.dusty, s.wet];
+        let apart = stains(&found.shares).into_iter().zip(stains(&now)).map(|(a, b)| (a - b).abs());
+        assert!(apart.into_iter().all(|apart| apart < 0.01), "{found:?}, {now:?}");
     }
     assert!(summary(&app, plate).shares.gone > 0.0);
     // Nothing moves, nothing is written.
@@ -78,10 +84,11 @@ fn coatings_know_their_films() {
     let plate_entity = spawn_plate(&mut app, 6, quick_coating());
     let mesh = add_mesh(&mut app, plate(6));
     let root = app.world_mut().spawn((Transform::default(), quick_coating())).id();
-    let leaves = [1.0, 2.0].map(|x| {
+    let mut leaves = [1.0, 2.0].map(|x| {
         let place = Transform::from_xyz(x, 0.0, 0.0);
         app.world_mut().spawn((Mesh3d(mesh.clone()), place, ChildOf(root))).id()
     });
+    leaves.sort_unstable();
     wait_for_films(&mut app, 3);
     let films = |app: &App, root: Entity| {
         let mut films = app.world().get::<CoatingFilms>(root).map(|own| own.films().to_vec()).unwrap_or_default();
@@ -159,7 +166,7 @@ fn places_are_found_in_the_world() {
     assert_eq!(at_point(&mut app, Vec3::new(0.5, 0.5, 0.3), 1.0).expect("a plate").entity, near);
 
     let hit = along_ray(&mut app, Vec3::new(0.5, 0.4, 3.0), Dir3::NEG_Z).expect("the near plate");
-    assert_eq!((hit.entity, hit.point.distance), (near, 3.0));
+    assert!(hit.entity == near && (hit.point.distance - 3.0).abs() < 1e-4, "{hit:?}");
     let hit = along_ray(&mut app, Vec3::new(5.0, 0.4, -2.5), Dir3::NEG_X).expect("the far plate");
     assert!(hit.entity == far && (hit.point.distance - 5.0).abs() < 1e-4, "{hit:?}");
     assert_eq!(along_ray(&mut app, Vec3::new(5.0, 0.4, -2.5), Dir3::X), None);

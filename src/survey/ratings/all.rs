@@ -22,7 +22,7 @@ use crate::survey::shares::FilmShares;
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub struct Ratings {
     /// Degree of rusting by ISO 4628-3.
     pub rust: RustGrade,

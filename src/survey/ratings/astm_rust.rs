@@ -33,7 +33,7 @@ const LIMITS: [f64; 10] = [0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.16, 
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub struct AstmRust(u8);
 
 impl AstmRust {

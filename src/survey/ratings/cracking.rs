@@ -43,7 +43,7 @@ const LIMITS: [f64; 5] = [0.0, 0.3, 1.0, 3.0, 10.0];
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub struct CrackingGrade {
     quantity: u8,
     size: u8,

@@ -38,7 +38,7 @@ const LIMITS: [f64; 5] = [0.0, 0.001, 0.003, 0.01, 0.03];
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub struct FlakingGrade {
     quantity: u8,
     size: u8,

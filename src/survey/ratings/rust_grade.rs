@@ -28,7 +28,7 @@ const LIMITS: [f64; 5] = [UNSEEN, 0.0005, 0.005, 0.01, 0.08];
 /// assert!("Ri7".parse::<RustGrade>().is_err());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Default, Debug, Clone, PartialEq))]
+#[cfg_attr(feature = "plugin", derive(bevy::reflect::Reflect), reflect(Debug, Clone, PartialEq))]
 pub enum RustGrade {
     /// No rust.
     #[default]
