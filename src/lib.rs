@@ -65,6 +65,7 @@
 //!   it ([`stain`], VC 6).
 //! - **Appearance**: the meshes that are drawn. They are the front of the film with the prop's own attributes, the
 //!   backs of flakes in primer, and the bare metal ([`appearance`]).
+//! - **Heat maps**: what a film is about to do, as colours over it ([`heat`]).
 //! - **Settings**: the numbers that steer each stage ([`settings`]). They are given in code, as a
 //!   [`Preset`](settings::Preset), or as a `.coating.ron` asset.
 //!
@@ -126,6 +127,7 @@ mod files;
 pub mod film;
 pub mod fracture;
 pub mod guide;
+pub mod heat;
 pub mod history;
 #[cfg(feature = "plugin")]
 mod mesh_reader;

@@ -48,7 +48,7 @@ pub use aging::age_forces;
 pub use by_hand::{strip_by_hand, tear_by_hand};
 pub use forces::FilmForces;
 pub use scratch::FractureScratch;
-pub use separation::{bending_force, separate, separation_age};
+pub use separation::{age_until_separation, bending_force, separate, separation_age};
 pub use sigmoid::sigmoid;
 pub use stripping::strip;
 pub use tearing::tear;

@@ -59,6 +59,46 @@ pub fn separation_age(lift: f32, contraction: f32, growth: f32, adhesion: f32, d
     if lift <= 0.0 || closing <= 0.0 { f32::INFINITY } else { (adhesion - lift * contraction) / closing }
 }
 
+/// Returns the age after which `v`, which is attached, separates if nothing tears around it: 0 if it does so at once,
+/// or infinity if it never does.
+///
+/// Adhesion and contraction change at the rates of `settings`, and faster at a `moisture` (0 to 1) that stays as it is.
+/// It is the closed form [`separation_age`] from the present forces on. Panics if the film has no such vertex.
+///
+/// ```
+/// use bevy_coating::{
+///     film::{FilmMesh, VertexId},
+///     fracture::{FilmForces, age_until_separation},
+///     settings::{CoatingSettings, Preset},
+/// };
+/// use bevy_math::Vec3;
+///
+/// let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)];
+/// let mesh = FilmMesh::new(corners, &[[0, 1, 2], [2, 1, 3]])?;
+/// let settings = CoatingSettings::from(Preset::Paper);
+/// let mut forces = FilmForces::new(&mesh, &settings, 7);
+/// forces.set_adhesion(VertexId(0), 0.75); // the bending force there is 1/6 and grows by 1/6 an age
+/// let age = age_until_separation(&mesh, &forces, VertexId(0), &settings, 0.0);
+/// assert!((age - 0.5).abs() < 1e-6, "0.75 - a = 1/6 + a/6");
+/// assert!(age_until_separation(&mesh, &forces, VertexId(0), &settings, 1.0) < age, "sooner where it is wet");
+/// # Ok::<(), bevy_coating::film::TopologyError>(())
+/// ```
+pub fn age_until_separation(
+    mesh: &FilmMesh,
+    forces: &FilmForces,
+    v: VertexId,
+    settings: &CoatingSettings,
+    moisture: f32,
+) -> f32 {
+    let ring = OneRing::new(mesh, forces, v, settings.bending.gain);
+    if ring.lift <= 0.0 {
+        return f32::INFINITY;
+    }
+    let decay = settings.adhesion.decay * (1.0 + moisture * settings.moisture.adhesion);
+    let growth = settings.tearing.contraction_growth;
+    separation_age(ring.lift, ring.force / ring.lift, growth, forces.adhesion(v), decay)
+}
+
 /// Separates every attached vertex on which the sum of the bending forces exceeds its adhesion (VC 5.1, eq. 4).
 ///
 /// A vertex that has separated never attaches again. `age` is the age of the film at the end of this step; it is stored

@@ -39,6 +39,7 @@ mod stages;
 mod table;
 #[cfg(test)]
 mod tests;
+mod words;
 
 use crate::film::{Geometry, Grain};
 

@@ -19,7 +19,7 @@ const LADDER: [&[&str]; 14] = [
     &["sim"],
     &["snapshot"],
     &["history"],
-    &["appearance"],
+    &["appearance", "heat"],
     &["bake"],
     &["api", "mesh_reader"],
     &["display", "shelter", "timeline", "stepping", "attach"],
@@ -29,7 +29,7 @@ const LADDER: [&[&str]; 14] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 14] = [
+const CORE: [&str; 15] = [
     "coding",
     "files",
     "settings",
@@ -43,6 +43,7 @@ const CORE: [&str; 14] = [
     "snapshot",
     "history",
     "appearance",
+    "heat",
     "bake",
 ];
 
