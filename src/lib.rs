@@ -157,6 +157,7 @@ pub use api::{
     error::{CoatingError, CoatingFault},
     exclude::CoatingExclude,
     film_pace::FilmPace,
+    heat_map_view::HeatMapView,
     history::CoatingHistory,
     limits::{MAX_RATE, MAX_START_AGE, MAX_STEPS_PER_AGE},
     links::{CoatedBy, CoatedMesh, CoatingPart},

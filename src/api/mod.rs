@@ -13,6 +13,7 @@ pub(crate) mod display_cost;
 pub(crate) mod error;
 pub(crate) mod exclude;
 pub(crate) mod film_pace;
+pub(crate) mod heat_map_view;
 pub(crate) mod history;
 pub(crate) mod limits;
 pub(crate) mod links;

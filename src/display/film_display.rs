@@ -67,6 +67,9 @@ pub(crate) struct FilmDisplay {
     /// Backs and metal, as far as they have been spawned.
     #[cfg(feature = "render")]
     pub(super) parts: super::part_handles::PartHandles,
+    /// Heat map, while one is shown.
+    #[cfg(feature = "render")]
+    pub(super) heat: Option<Box<super::heat_overlay::HeatOverlay>>,
 }
 
 /// Primitive of the prop.
@@ -120,6 +123,8 @@ impl FilmDisplay {
             credit: 0.0,
             #[cfg(feature = "render")]
             parts: super::part_handles::PartHandles::default(),
+            #[cfg(feature = "render")]
+            heat: None,
         })
     }
 
@@ -181,6 +186,8 @@ impl FilmDisplay {
             credit: 0.0,
             #[cfg(feature = "render")]
             parts: super::part_handles::PartHandles::default(),
+            #[cfg(feature = "render")]
+            heat: None,
         }
     }
 
@@ -197,13 +204,13 @@ impl FilmDisplay {
         self.appearance.hidden_faces()
     }
 
-    /// Returns whether `entity` draws the film's backs or metal.
+    /// Returns whether `entity` draws the film's backs or metal, or its heat map.
     pub fn has_part(
         &self,
         #[cfg_attr(not(feature = "render"), expect(unused_variables, reason = "no parts"))] entity: Entity,
     ) -> bool {
         #[cfg(feature = "render")]
-        return self.parts.contains(entity);
+        return self.parts.contains(entity) || self.heat.as_ref().is_some_and(|heat| heat.part == entity);
         #[cfg(not(feature = "render"))]
         false
     }

@@ -74,12 +74,12 @@ impl PartSpace {
         self.mirrored
     }
 
-    fn position(&self, p: [f32; 3]) -> [f32; 3] {
+    pub(super) fn position(&self, p: [f32; 3]) -> [f32; 3] {
         ((Vec3::from_array(p) + self.origin) / self.scale).to_array()
     }
 
     /// Transforms a normal by the inverse transpose, which undoes the transform that it was read with.
-    fn normal(&self, n: [f32; 3]) -> [f32; 3] {
+    pub(super) fn normal(&self, n: [f32; 3]) -> [f32; 3] {
         if self.skewed { (Vec3::from_array(n) * self.scale).normalize_or_zero().to_array() } else { n }
     }
 
@@ -91,7 +91,7 @@ impl PartSpace {
         }
     }
 
-    fn index_order(&self) -> [usize; 3] {
+    pub(super) fn index_order(&self) -> [usize; 3] {
         if self.mirrored { [0, 2, 1] } else { [0, 1, 2] }
     }
 }
@@ -247,7 +247,7 @@ impl Floats<4> for VertexAttributeValues {
 }
 
 /// Sets an attribute of a mesh.
-fn insert(mesh: &mut Mesh, attribute: MeshVertexAttribute, values: impl Into<VertexAttributeValues>) {
+pub(super) fn insert(mesh: &mut Mesh, attribute: MeshVertexAttribute, values: impl Into<VertexAttributeValues>) {
     // This fails only for meshes whose data is on the GPU only, which the plugin's meshes never are.
     let _ = mesh.try_insert_attribute(attribute, values);
 }

@@ -8,6 +8,8 @@
 //!   ([`CoatingPart`](crate::api::links::CoatingPart)) draw the backs of flakes and the bare metal, with their stains.
 //!   They have the sides and holes of the primitive's material, its layers, shadow flags and visibility. Without that
 //!   feature there are no materials for them, and they are left out.
+//! - Where a [`HeatMapView`](crate::api::heat_map_view::HeatMapView) asks for it, a further child shows the film in
+//!   the colours of a quantity.
 //!
 //! Films are shown at the level that their distance asks for ([`level`]). Assets are changed only in frames in which
 //! the film changed, and then only where it did ([`mesh`]).
@@ -17,6 +19,10 @@ mod canvas;
 mod custom_materials;
 mod film_display;
 mod film_paint;
+#[cfg(feature = "render")]
+mod heat;
+#[cfg(feature = "render")]
+mod heat_overlay;
 mod level;
 #[cfg(feature = "render")]
 mod material;
@@ -87,7 +93,9 @@ impl Plugin for FilmDisplayPlugin {
                 film_display::follow_films,
                 film_display::write_fronts,
                 #[cfg(feature = "render")]
-                (outlines::follow_outlines, parts::write_parts).chain().run_if(parts::has_materials),
+                (outlines::follow_outlines, parts::write_parts, heat::show_heat_maps)
+                    .chain()
+                    .run_if(parts::has_materials),
             )
                 .chain()
                 .in_set(CoatingDisplay),

@@ -223,7 +223,7 @@ impl PartAssets<'_, '_> {
 /// Despawns the parts of a film that is taken off.
 pub(super) fn on_display_removed(removed: On<Remove, FilmDisplay>, mut commands: Commands, films: Query<&FilmDisplay>) {
     let Ok(display) = films.get(removed.entity) else { return };
-    for part in display.parts.entities() {
+    for part in display.parts.entities().chain(display.heat.as_ref().map(|heat| heat.part)) {
         commands.entity(part).try_despawn();
     }
 }

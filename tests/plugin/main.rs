@@ -25,6 +25,8 @@ mod edits;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]
+mod heat;
+#[cfg(feature = "render")]
 mod mask_picture;
 #[cfg(feature = "render")]
 mod outline;
