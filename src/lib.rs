@@ -126,6 +126,8 @@ mod display;
 mod files;
 pub mod film;
 pub mod fracture;
+#[cfg(feature = "tools")]
+mod gizmos;
 pub mod guide;
 pub mod heat;
 pub mod history;
@@ -176,6 +178,8 @@ pub use api::{
 pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 #[cfg(feature = "render")]
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
+#[cfg(feature = "tools")]
+pub use gizmos::{CoatingGizmos, CoatingGizmosPlugin};
 #[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "plugin")]

@@ -22,7 +22,7 @@ const LADDER: [&[&str]; 14] = [
     &["appearance", "heat"],
     &["bake"],
     &["api", "mesh_reader"],
-    &["display", "shelter", "timeline", "stepping", "attach"],
+    &["display", "gizmos", "shelter", "timeline", "stepping", "attach"],
     &["plugin"],
     &["prelude"],
     &["lib"],

@@ -22,6 +22,8 @@ mod clones;
 mod detail;
 mod display;
 mod edits;
+#[cfg(feature = "tools")]
+mod gizmos;
 mod grain;
 mod groups;
 #[cfg(feature = "render")]
