@@ -5,6 +5,7 @@
 //! | [`getting_started`] | a first prop, glTF scenes, the clock, messages, components |
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
+//! | [`panel`] | a panel for all settings, heat maps, gizmos |
 //! | [`baking`] | ageing model files without an engine |
 //! | [`saving`] | saving and restoring films, going back in time, props that come late |
 //! | [`performance`] | measured times, quality levels |
@@ -13,7 +14,7 @@
 //! | [`how_it_works`] | the stages, and where each comes from in the paper |
 //!
 //! The same pages lie in the folder `docs` of the repository. Pages whose examples need the engine are empty without
-//! the feature `plugin`.
+//! the feature `plugin` (that of the panel without the feature `panel`).
 
 /// Destinations of the links between the pages. The pages define them too, as files, but the first definition counts.
 macro_rules! links {
@@ -21,6 +22,7 @@ macro_rules! links {
         "[getting started]: crate::guide::getting_started
 [settings]: crate::guide::settings
 [stains]: crate::guide::stains
+[panel]: crate::guide::panel
 [baking]: crate::guide::baking
 [saving]: crate::guide::saving
 [performance]: crate::guide::performance
@@ -44,6 +46,11 @@ pub mod settings {}
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/stains.md"))]
 #[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
 pub mod stains {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "panel", doc = include_str!("../docs/panel.md"))]
+#[cfg_attr(not(feature = "panel"), doc = "Needs the feature `panel`.")]
+pub mod panel {}
 
 #[doc = links!()]
 #[doc = include_str!("../docs/baking.md")]

@@ -89,6 +89,8 @@
 //! |---|---|---|
 //! | `plugin` | yes | the Bevy plugin: components, resources, messages, assets, and meshes that follow their films |
 //! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
+//! | `tools` | no | gizmos of cracks, bends and planes; needs `bevy_picking` and `bevy_gizmos`, includes `plugin` |
+//! | `panel` | no | a panel for settings, clock, maps and figures; needs `bevy_egui`, includes `render`, `tools` |
 //! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |
 //! | (none) | | with `default-features = false` the simulation alone, which depends on `bevy_math` but not on Bevy |
 //!
@@ -133,6 +135,8 @@ pub mod heat;
 pub mod history;
 #[cfg(feature = "plugin")]
 mod mesh_reader;
+#[cfg(feature = "panel")]
+mod panel;
 #[cfg(feature = "plugin")]
 mod plugin;
 pub mod prelude;
@@ -180,6 +184,8 @@ pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};
 pub use display::{CoatedMaterial, StainExtension, StainView, StainedMaterial};
 #[cfg(feature = "tools")]
 pub use gizmos::{CoatingGizmos, CoatingGizmosPlugin};
+#[cfg(feature = "panel")]
+pub use panel::{CoatingPanel, CoatingPanelPlugin, PanelWidget};
 #[cfg(feature = "plugin")]
 pub use plugin::CoatingWeatheringPlugin;
 #[cfg(feature = "plugin")]

@@ -105,8 +105,13 @@ impl Studio {
     /// Opens a studio where something can be drawn. Elsewhere the test that asks is to be skipped, which is an error in
     /// CI. Pictures are `width` by `height`, assets come from `assets`.
     pub fn open(width: u32, height: u32, assets: &str) -> Option<Self> {
+        Self::open_with(width, height, assets, |_| ())
+    }
+
+    /// Does the same, with what `add` adds to the app.
+    pub fn open_with(width: u32, height: u32, assets: &str, add: impl FnOnce(&mut App)) -> Option<Self> {
         if adapter_exists() {
-            return Some(Self::new(width, height, assets));
+            return Some(Self::new(width, height, assets, add));
         }
         let missing = "no graphics adapter was found; install a software renderer (on Debian: mesa-vulkan-drivers)";
         let skipping = std::env::var_os(NO_SKIPPING).is_none_or(|value| value.is_empty());
@@ -116,7 +121,7 @@ impl Studio {
     }
 
     /// A studio with the coating plugin.
-    fn new(width: u32, height: u32, assets: &str) -> Self {
+    fn new(width: u32, height: u32, assets: &str, add: impl FnOnce(&mut App)) -> Self {
         let mut app = App::new();
         app.add_plugins(
             DefaultPlugins
@@ -129,6 +134,7 @@ impl Studio {
         app.add_plugins(CoatingWeatheringPlugin::default()).insert_resource(CoatingBudget::UNLIMITED);
         app.world_mut().resource_mut::<CoatingClock>().paused = true;
         app.insert_resource(ClearColor(BACKDROP)).init_resource::<Captured>();
+        add(&mut app);
         let broken = Arc::default();
         app.sub_app_mut(RenderApp)
             .insert_resource(BrokenPipelines(Arc::clone(&broken)))

@@ -23,7 +23,7 @@ const LADDER: [&[&str]; 14] = [
     &["bake"],
     &["api", "mesh_reader"],
     &["display", "gizmos", "shelter", "timeline", "stepping", "attach"],
-    &["plugin"],
+    &["panel", "plugin"],
     &["prelude"],
     &["lib"],
 ];

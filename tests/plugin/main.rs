@@ -32,6 +32,8 @@ mod heat;
 mod mask_picture;
 #[cfg(feature = "render")]
 mod outline;
+#[cfg(feature = "panel")]
+mod panel;
 #[cfg(feature = "render")]
 mod parts;
 #[cfg(feature = "render")]

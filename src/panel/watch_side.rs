@@ -1,0 +1,125 @@
+//! The right side: props, heat maps, gizmos, figures over age, times of stages, saved state.
+
+use bevy_egui::egui::{Button, RichText, ScrollArea, Ui};
+
+use super::{
+    action::Action,
+    bar,
+    cell::{ROW, cell, right_text, text},
+    figures::PLOTS,
+    legend,
+    state::CoatingPanel,
+    view::{PropLine, View},
+    widget::PanelWidget,
+};
+use crate::heat::HeatMap;
+
+/// Height of the list of props, in points.
+const PROPS: f32 = 92.0;
+/// Width of a button of a heat map: four a row.
+const MAP: f32 = 62.0;
+
+/// Adds everything that there is to watch.
+pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
+    ui.add_space(4.0);
+    ui.heading("Props");
+    props(ui, view, panel, actions);
+    ui.separator();
+    ui.heading("Heat map");
+    maps(ui, view, panel, actions);
+    ui.separator();
+    ui.heading("Over age");
+    for plot in &PLOTS {
+        plot.show(ui, &view.samples, view.age, bar::last_age(view));
+    }
+    ui.separator();
+    ui.heading("Time of a frame");
+    times(ui, view);
+    ui.separator();
+    state(ui, view, panel, actions);
+}
+
+fn props(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        text(ui, 128.0, RichText::new("name").weak().small());
+        right_text(ui, 52.0, RichText::new("age").weak().small());
+        right_text(ui, 64.0, RichText::new("triangles").weak().small());
+    });
+    ScrollArea::vertical().id_salt("props").max_height(PROPS).min_scrolled_height(PROPS).auto_shrink(false).show(
+        ui,
+        |ui| {
+            for prop in &view.props {
+                ui.push_id(prop.entity, |ui| line(ui, prop, view, panel, actions));
+            }
+        },
+    );
+}
+
+fn line(ui: &mut Ui, prop: &PropLine, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        let is_chosen = view.chosen == Some(prop.entity);
+        let label = Button::selectable(is_chosen, prop.name.as_str()).truncate();
+        let name = cell(ui, 128.0, |ui| ui.add(label));
+        panel.places.insert(PanelWidget::Prop(prop.entity), name.rect);
+        if name.on_hover_text(&prop.name).clicked() {
+            actions.push(Action::Choose(prop.entity));
+        }
+        let age = prop.age.map_or("building".to_owned(), |age| format!("{age:.3}"));
+        right_text(ui, 52.0, RichText::new(age).monospace());
+        right_text(ui, 64.0, RichText::new(prop.triangles.to_string()).monospace());
+    });
+}
+
+fn maps(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
+    let shown = view.heat.map(|heat| heat.map);
+    let choices: Vec<Option<HeatMap>> = [None].into_iter().chain(HeatMap::ALL.map(Some)).collect();
+    for row in choices.chunks(4) {
+        ui.horizontal(|ui| {
+            // The longest name just fits.
+            ui.spacing_mut().button_padding.x = 1.0;
+            for &map in row {
+                let name = map.map_or("off", HeatMap::name);
+                let button = ui.add_sized([MAP, ROW], Button::selectable(shown == map, name));
+                panel.places.insert(PanelWidget::Heat(map), button.rect);
+                if button.on_hover_text(legend::meaning(map)).clicked() {
+                    actions.push(Action::Heat(map));
+                }
+            }
+        });
+    }
+    legend::show(ui, view.heat.as_ref());
+    let Some(mut on) = view.gizmos else { return };
+    let gizmos = ui.checkbox(&mut on, "tips of cracks, lengths and bends");
+    panel.places.insert(PanelWidget::Gizmos, gizmos.rect);
+    if gizmos.on_hover_text("draws `CoatingGizmos` on all films").changed() {
+        actions.push(Action::Gizmos(on));
+    }
+}
+
+fn times(ui: &mut Ui, view: &View) {
+    let sum: f64 = view.times.iter().filter_map(|(_, time)| *time).sum();
+    for (name, time) in view.times.iter().copied().chain([("all of it", Some(sum))]) {
+        ui.horizontal(|ui| {
+            text(ui, 128.0, name);
+            let time = time.map_or("-".to_owned(), |time| format!("{time:.2} ms"));
+            right_text(ui, 80.0, RichText::new(time).monospace());
+        });
+    }
+}
+
+fn state(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        let save = ui.add_sized([72.0, ROW], Button::new("Save state"));
+        panel.places.insert(PanelWidget::SaveState, save.rect);
+        if save.on_hover_text("keeps the films of the prop as they are, as its `CoatingSnapshot`").clicked() {
+            actions.push(Action::SaveState);
+        }
+        let restore = ui.add_enabled_ui(view.is_saved, |ui| ui.add_sized([64.0, ROW], Button::new("Restore"))).inner;
+        panel.places.insert(PanelWidget::RestoreState, restore.rect);
+        if restore.clicked() {
+            actions.push(Action::RestoreState);
+        }
+        let saved = view.chosen.filter(|_| view.is_saved).and_then(|chosen| panel.saved.get(&chosen));
+        text(ui, 96.0, RichText::new(saved.map_or(String::new(), |age| format!("of age {age:.3}"))).weak());
+    });
+}
