@@ -137,7 +137,7 @@ fn a_view_on_a_film_counts_before_that_of_its_coating() {
         let children = |film: &Entity| world.get::<Children>(*film).expect("children").to_vec();
         films
             .iter()
-            .flat_map(|film| children(film))
+            .flat_map(children)
             .filter_map(|child| Some(world.get::<Mesh3d>(child)?.0.id()))
             .collect()
     };
