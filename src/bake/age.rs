@@ -21,8 +21,8 @@ use crate::{
     survey::UntilWatch,
 };
 
-/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`], or until [`BakeOptions::until`]. `stopwatch` has run since before the
-/// model was read.
+/// Makes films of a model's meshes and ages them from 0 to [`BakeOptions::age`], or until [`BakeOptions::until`].
+/// `stopwatch` has run since before the model was read.
 ///
 /// ```
 /// use bevy_coating::bake::{BakeOptions, Images, Input, Stopwatch, bake};
@@ -105,7 +105,8 @@ struct Aged {
     reached: bool,
 }
 
-/// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the condition.
+/// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the
+/// condition.
 fn age(films: &mut [FilmState], options: &BakeOptions, stopwatch: &mut Stopwatch, progress: &dyn Progress) -> Aged {
     let mut aged = Aged::default();
     let Some(clock) = films.first().map(|film| film.clock) else { return aged };
