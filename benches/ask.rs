@@ -1,9 +1,9 @@
 //! The cost of questions to a film that has aged: what lies nearest, along a ray and in a sphere, and its shares.
 //!
 //! The plate has cracked and curled, and part of it is gone (age 1, preset `heavy`). `nearest` asks from 3 cm above it,
-//! `nearest_far` from 3 m away. `along_ray` looks down on it, `along_ray_beside` past it. `in_sphere` is a hand of 10 cm
-//! radius, `in_sphere_all` holds the whole plate. `shares` counts everything, `survey` brings the counts up to date after
-//! stains have changed, and `survey_same` finds that nothing has. An item is a question.
+//! `nearest_far` from 3 m away. `along_ray` looks down on it, `along_ray_beside` past it. `in_sphere` is a hand of 10
+//! cm radius, `in_sphere_all` holds the whole plate. `shares` counts everything, `survey` brings the counts up to date
+//! after stains have changed, and `survey_same` finds that nothing has. An item is a question.
 //!
 //! Run with `cargo bench --profile dev --bench ask`.
 

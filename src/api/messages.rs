@@ -140,8 +140,8 @@ pub struct FirstCrack {
     pub position: Vec3,
 }
 
-/// Message that a rating of a film has got worse by a class or more: its rust, its flaking or its cracking. There is one
-/// for each rating.
+/// Message that a rating of a film has got worse by a class or more: its rust, its flaking or its cracking. There is
+/// one for each rating.
 ///
 /// It is not sent for ratings with which a film appears, nor when a film goes back in time; afterwards it tells of
 /// ratings again. The film's [`FilmSummary`](super::summary::FilmSummary) has all figures.

@@ -68,8 +68,8 @@ impl FilmSurveyed {
         Some(FilmSummary { shares, ratings: Ratings::from(&shares) })
     }
 
-    /// Calls `tell` with each of the film's ratings that is worse than ever. A film that has just appeared or is younger
-    /// than at the last look has no past that its ratings could be worse than.
+    /// Calls `tell` with each of the film's ratings that is worse than ever. A film that has just appeared or is
+    /// younger than at the last look has no past that its ratings could be worse than.
     pub fn tell(&mut self, entity: Entity, root: Entity, age: f64, now: Ratings, mut tell: impl FnMut(RatingReached)) {
         let before = self.told.filter(|(_, then)| *then <= age).map(|(ratings, _)| ratings);
         if let Some(before) = before {

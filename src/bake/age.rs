@@ -109,7 +109,8 @@ struct Aged {
     reached: bool,
 }
 
-/// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the condition.
+/// Ages the films, measuring them at every age of the timeline, and at the one at which they have come to the
+/// condition.
 fn age(
     films: &mut [FilmState],
     props: &[Prop],

@@ -34,8 +34,8 @@ pub struct FilmHit {
 /// Questions to all films about places in the world, as a parameter of systems.
 ///
 /// Everything is in world space and in its units. Films are asked where they stand at their present
-/// [`GlobalTransform`]; those whose boxes are out of reach cost next to nothing. A film that becomes ready in this frame
-/// answers from the next on.
+/// [`GlobalTransform`]; those whose boxes are out of reach cost next to nothing. A film that becomes ready in this
+/// frame answers from the next on.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -113,14 +113,14 @@ impl FilmQuery<'_, '_> {
         })
     }
 
-    /// Returns what lies within `radius` of `centre`, of all films together, or `None` if there is nothing. Areas are in
-    /// square metres. See [`FilmView::in_sphere`] for what counts.
+    /// Returns what lies within `radius` of `centre`, of all films together, or `None` if there is nothing. Areas are
+    /// in square metres. See [`FilmView::in_sphere`] for what counts.
     pub fn in_sphere(&self, centre: Vec3, radius: f32) -> Option<FilmArea> {
         self.films_in_sphere(centre, radius).map(|(.., area)| area).reduce(|all, area| all.merged(&area))
     }
 
-    /// Returns each film of which something lies within `radius` of `centre`: its entity, the entity with its `Coating`,
-    /// and what lies there. See [`FilmView::in_sphere`] for what counts.
+    /// Returns each film of which something lies within `radius` of `centre`: its entity, the entity with its
+    /// `Coating`, and what lies there. See [`FilmView::in_sphere`] for what counts.
     pub fn films_in_sphere(&self, centre: Vec3, radius: f32) -> impl Iterator<Item = (Entity, Entity, FilmArea)> {
         self.placed().filter_map(move |film| {
             let (centre, radius) = (film.back.transform_point3(centre), radius * film.metres_per_unit);

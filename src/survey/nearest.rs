@@ -9,8 +9,8 @@ use super::{
 };
 
 impl FilmView<'_> {
-    /// Returns the place nearest to `point`, of the film as it is now or of the metal that removed faces have left bare,
-    /// or `None` if there is none within the distance `within`.
+    /// Returns the place nearest to `point`, of the film as it is now or of the metal that removed faces have left
+    /// bare, or `None` if there is none within the distance `within`.
     ///
     /// Film that has come off is seen from the side on which `point` lies, so it is [primer] from below. Metal under
     /// film that is still there is passed over, even where that film has lifted: [rays](Self::along_ray) find it. At a

@@ -24,8 +24,8 @@ const LIMITS: [f64; 5] = [0.0, 0.001, 0.003, 0.01, 0.03];
 /// | size: largest extent, up to mm | | 1 | 3 | 10 | 30 | more |
 ///
 /// An area between two quantities gets the worse one. The size is that of the largest places that are typical: a tenth
-/// of the flaked area is in places of this class or above. The size 0 in a wish ([`Until`](crate::survey::Until)) stands
-/// for any. The depth is always that of the whole coating, to the metal ("b" in the standard).
+/// of the flaked area is in places of this class or above. The size 0 in a wish ([`Until`](crate::survey::Until))
+/// stands for any. The depth is always that of the whole coating, to the metal ("b" in the standard).
 ///
 /// ```
 /// use bevy_coating::survey::{FilmShares, FlakingGrade};
