@@ -135,11 +135,7 @@ fn a_view_on_a_film_counts_before_that_of_its_coating() {
     let maps: Vec<AssetId<Mesh>> = {
         let world = app.world();
         let children = |film: &Entity| world.get::<Children>(*film).expect("children").to_vec();
-        films
-            .iter()
-            .flat_map(children)
-            .filter_map(|child| Some(world.get::<Mesh3d>(child)?.0.id()))
-            .collect()
+        films.iter().flat_map(children).filter_map(|child| Some(world.get::<Mesh3d>(child)?.0.id())).collect()
     };
     assert_ne!(first(maps[0]), first(maps[1]), "all the rain, and no rust");
     // The coating goes, and with it every map.
