@@ -5,6 +5,7 @@
 //! changes nothing but the stains. In `partly_moving` two fifths of the plate have separated, and nothing else moves.
 //! `ageing` follows a film through 20 steps at age 0.6, one at a time. `new` makes the parts from scratch, as once a
 //! prop, and `new_fresh` those of a film that has not separated anywhere. An item is a triangle of the film.
+//! `heat` computes the values and colours of each heat map on a film at age 0.6.
 //! Handing the arrays to the engine comes on top; that is in the bench `plugin`.
 //!
 //! Names with `fine` are at level 2, with 16 triangles for each of the film.
@@ -15,6 +16,7 @@ mod common;
 
 use bevy_coating::{
     appearance::{Detail, DisplayChanges, FilmAppearance},
+    heat::{HeatFilm, HeatMap, HeatValues},
     remesh::sample::TestPiece,
     settings::CoatingSettings,
     sim::FilmState,
@@ -198,4 +200,17 @@ fn new_fresh(bencher: Bencher) {
 #[divan::bench(sample_count = 20, sample_size = 1)]
 fn new_fresh_fine(bencher: Bencher) {
     make(bencher, SIZE, 2, 0.0);
+}
+
+#[divan::bench(args = HeatMap::ALL)]
+fn heat(bencher: Bencher, map: HeatMap) {
+    let (settings, environment) = (CoatingSettings::default(), Environment::default());
+    let mut film = fresh(&common::plate(SIZE));
+    film.age_to(AGE, &settings, &environment);
+    let parts = HeatFilm { mesh: &film.mesh, forces: &film.forces, stains: &film.stains, settings: &settings };
+    let (mut values, range) = (HeatValues::default(), map.range());
+    bencher.counter(ItemsCount::new(SIZE)).bench_local(|| {
+        values.update(map, parts);
+        values.corners().iter().map(|&value| map.color(value, range)[0]).sum::<f32>()
+    });
 }
