@@ -74,7 +74,7 @@ pub(super) fn coat_by_extras(
     for (entity, json) in found {
         match PropExtras::read(json) {
             Ok(Some(PropExtras::Coat(coating))) => {
-                commands.entity(entity).try_insert_if_new(coating_of(coating));
+                commands.entity(entity).try_insert_if_new(coating_of(*coating));
             }
             Ok(Some(PropExtras::Exclude)) => {
                 commands.entity(entity).try_insert_if_new(CoatingExclude);

@@ -41,6 +41,6 @@ pub enum ExtrasError {
         /// Name of the property.
         key: String,
         /// Reason.
-        source: SettingsError,
+        source: Box<SettingsError>,
     },
 }

@@ -16,7 +16,7 @@ pub enum PropExtras {
     /// It is not painted, so nothing ages: `coating` is `false` or `"none"`.
     Exclude,
     /// It is painted.
-    Coat(PropCoating),
+    Coat(Box<PropCoating>),
 }
 
 /// Paint of an object.
@@ -93,7 +93,7 @@ impl PropExtras {
                 }
             }
         }
-        Ok(Some(Self::Coat(coating)))
+        Ok(Some(Self::Coat(coating.into())))
     }
 }
 
@@ -113,5 +113,5 @@ fn kind(key: &str, expected: &'static str, found: &Value) -> ExtrasError {
 }
 
 fn in_key(key: &str, source: crate::settings::SettingsError) -> ExtrasError {
-    ExtrasError::Settings { key: key.into(), source }
+    ExtrasError::Settings { key: key.into(), source: source.into() }
 }

@@ -3,7 +3,7 @@ use crate::settings::{CoatingSettings, Preset};
 
 fn coat(json: &str) -> PropCoating {
     match PropExtras::read(json) {
-        Ok(Some(PropExtras::Coat(coating))) => coating,
+        Ok(Some(PropExtras::Coat(coating))) => *coating,
         other => panic!("{json}: {other:?}"),
     }
 }
