@@ -11,13 +11,12 @@
 //! | `coating_start_age` | 0 to 10 | age with which it appears in a game |
 //!
 //! ```
-//! use bevy_coating::extras::{PropCoating, PropExtras};
+//! use bevy_coating::extras::PropExtras;
 //!
 //! let json = r#"{ "coating": "harsh", "coating.adhesion.mean": 1.8, "coating_seed": 7, "mass": 3 }"#;
 //! let extras = PropExtras::read(json)?;
 //! let Some(PropExtras::Coat(coating)) = extras else { panic!("a coating") };
-//! let PropCoating { settings, seed, .. } = *coating;
-//! assert_eq!((settings.adhesion.mean, seed), (1.8, Some(7)));
+//! assert_eq!((coating.settings.adhesion.mean, coating.seed), (1.8, Some(7)));
 //!
 //! assert_eq!(PropExtras::read(r#"{ "mass": 3 }"#)?, None);
 //! assert_eq!(PropExtras::read(r#"{ "coating": false }"#)?, Some(PropExtras::Exclude));

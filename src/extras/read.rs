@@ -93,7 +93,7 @@ impl PropExtras {
                 }
             }
         }
-        Ok(Some(Self::Coat(Box::new(coating))))
+        Ok(Some(Self::Coat(coating.into())))
     }
 }
 
