@@ -89,7 +89,7 @@
 //! |---|---|---|
 //! | `plugin` | yes | the Bevy plugin: components, resources, messages, assets, and meshes that follow their films |
 //! | `render` | yes | stains in detail, the backs of flakes and the bare metal; needs `bevy_pbr`, includes `plugin` |
-//! | `tools` | no | brushes at the pointer, gizmos of cracks; needs `bevy_picking` and `bevy_gizmos`, includes `plugin` |
+//! | `tools` | no | brushes at the pointer, gizmos; needs `bevy_picking` and `bevy_gizmos`, includes `plugin` |
 //! | `panel` | no | a panel for settings, clock, maps and figures; needs `bevy_egui`, includes `render`, `tools` |
 //! | `gltf` | no | coatings from custom properties of glTF files, as Blender writes them; needs `bevy_gltf` |
 //! | `bake` | no | ageing of model files without an engine: the module `bake` and the program `coating-bake` |

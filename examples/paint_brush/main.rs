@@ -2,8 +2,8 @@
 //! weaken its lower corner and score a line; a heat map shows where paint will come off; then it has.
 //!
 //! `cargo run --example paint_brush` opens a window in which you paint yourself, over the same strokes; without a
-//! display, or with `--headless`, it renders the sheet before, its heat map, and the sheet after into PNG files; without
-//! a graphics adapter it ages the sheet and writes it as a model.
+//! display, or with `--headless`, it renders the sheet before, its heat map, and the sheet after into PNG files;
+//! without a graphics adapter it ages the sheet and writes it as a model.
 
 #![allow(clippy::disallowed_methods, reason = "the scene is only looked at; its bits may differ between platforms")]
 

@@ -1,7 +1,7 @@
 //! Defines the messages that the plugin sends.
 //!
-//! Each is also an event that observers get, of the film's entity and of all above it: the plugin triggers it at the end
-//! of the frame in which it was sent.
+//! Each is also an event that observers get, of the film's entity and of all above it: the plugin triggers it at the
+//! end of the frame in which it was sent.
 
 use std::sync::Arc;
 

@@ -15,6 +15,7 @@ use bevy::{
         schedule::IntoScheduleConfigs,
         system::{Commands, Query},
     },
+    transform::TransformSystems,
 };
 
 use crate::api::{
@@ -26,7 +27,8 @@ use crate::api::{
 /// Adds the systems of debris.
 pub(crate) fn add_debris(app: &mut App) {
     app.add_systems(Update, (follow_coatings, flutter::flutter).before(CoatingAdvance));
-    app.add_systems(PostUpdate, shed::shed.before(CoatingAttach));
+    // Flakes of this frame are placed with all else.
+    app.add_systems(PostUpdate, shed::shed.before(CoatingAttach).before(TransformSystems::Propagate));
 }
 
 /// Films whose coatings want debris note which pieces come off.

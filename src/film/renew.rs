@@ -32,10 +32,10 @@ pub(crate) struct Renewal {
     pub rest: FilmMesh,
     /// Film as it is now.
     pub mesh: FilmMesh,
-    /// What remains of all fracture so far, as if it had happened in one step. `separated` is empty: who separated is
+    /// Fracture that remains, as if all of it had happened in one step. `separated` is empty: who separated is
     /// no question of the mesh.
     pub fracture: FilmChanges,
-    /// What each vertex of the new film is.
+    /// Origin of each vertex of the new film.
     pub origins: Vec<Origin>,
     /// Whether each face was made new.
     pub faces: Vec<bool>,

@@ -23,8 +23,9 @@ pub use ring::BrushGizmos;
 
 /// Plugin that lets Bevy's pointers hit films, moved and curled as they are, and paints with a [`CoatingBrush`].
 ///
-/// Hits are on the entities of films, with a [`FilmHit`](crate::FilmHit) as their extra data. Add it after `DefaultPlugins`, with
-/// Bevy's feature `bevy_picking`; the rim of the brush is drawn where Bevy's gizmos are (`bevy_gizmos_render`).
+/// Hits are on the entities of films, with a [`FilmHit`](crate::FilmHit) as their extra data. Add it after
+/// `DefaultPlugins`, with Bevy's feature `bevy_picking`; the rim of the brush is drawn where Bevy's gizmos are
+/// (`bevy_gizmos_render`).
 ///
 /// ```
 /// use bevy::{picking::{DefaultPickingPlugins, input::PointerInputPlugin}, prelude::*};

@@ -17,10 +17,10 @@ use crate::{
     stain::Environment,
 };
 
-/// What a touch did.
+/// Outcome of a touch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Touched {
-    /// What broke, in the form of a step's changes.
+    /// Damage that was done, in the form of a step's changes.
     pub changes: FilmChanges,
     /// Whether film is new, so that vertices have other numbers than before.
     pub renewed: bool,
