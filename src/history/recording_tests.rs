@@ -1,6 +1,6 @@
 //! Recordings give the same past again, and nothing else is taken for one.
 
-use bevy_math::Vec3;
+use bevy_math::{Vec3, ops};
 use proptest::prelude::*;
 
 use super::{
@@ -178,7 +178,7 @@ fn strokes_take_few_bytes() {
     let before = bytes(&history);
     for i in 0..600u32 {
         let turn = i as f32 * 0.013;
-        let face = (faces * (0.5 + 0.4 * (turn * 7.0).sin() * turn.cos())) as u32;
+        let face = (faces * (0.5 + 0.4 * ops::sin(turn * 7.0) * ops::cos(turn))) as u32;
         let at = Vec3::new(turn.fract(), (turn * 31.0).fract(), (turn * 17.0).fract());
         let touch = Touch::new(Site::new(FaceId(face), at), 0.1, Effect::Adhesion(Change::Multiply(0.9)));
         assert!(history.record(Event::Touch(touch, i / 100)));

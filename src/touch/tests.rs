@@ -252,7 +252,7 @@ fn a_ruin_that_is_painted_over_is_fresh_and_ages_as_fresh_paint_does() {
     assert_eq!(film.validate(), Ok(()));
     let (again, first) = (film.measure(), fresh.measure());
     let near = |a: f64, b: f64, by: f64| (a - b).abs() <= by;
-    assert!(near(again.separated.unwrap().into(), first.separated.unwrap().into(), 0.01), "{again:?}\n{first:?}");
+    assert!(near(again.separated.unwrap(), first.separated.unwrap(), 0.01), "{again:?}\n{first:?}");
     let gone = [&film, &fresh].map(|film| film.mesh.topology.removed_face_count() as f64 / 1_500.0);
     assert!(near(gone[0], gone[1], 0.05), "{gone:?}");
 }

@@ -92,8 +92,7 @@ fn masks_that_cannot_be_used_are_refused_with_the_way_out() {
     image.texture_descriptor.format = TextureFormat::Bc1RgbaUnorm;
     image.data = Some(vec![0; 8]);
     let unreadable = add(image);
-    let mut gone = Image::default();
-    gone.data = None;
+    let gone = Image { data: None, ..Image::default() };
     let on_gpu = add(gone);
     let named = |name: &str, handle: Handle<Image>| CoatingMasks::default().with_image(name, handle, WEAK);
     let mut unnamed = named("wear.png", compressed.clone());
