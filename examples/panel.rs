@@ -1,16 +1,16 @@
-//! The panel: every setting, the clock, heat maps and figures, beside a barrel. F2 opens and closes it.
+//! The panel: every setting, the clock, heat maps, a brush and figures, beside a barrel. F2 opens and closes it.
 //!
 //! `cargo run --example panel`
 
 use bevy::prelude::*;
-use bevy_coating::{CoatingPanel, CoatingPanelPlugin, prelude::*};
+use bevy_coating::{CoatingPanel, CoatingPanelPlugin, CoatingPointingPlugin, prelude::*};
 use bevy_egui::EguiPlugin;
 
 fn main() {
     App::new()
         // Only the app adds `EguiPlugin`, as there can be but one.
         .add_plugins((DefaultPlugins, EguiPlugin::default()))
-        .add_plugins((CoatingWeatheringPlugin::default(), CoatingPanelPlugin))
+        .add_plugins((CoatingWeatheringPlugin::default(), CoatingPanelPlugin, CoatingPointingPlugin))
         .add_systems(Startup, setup)
         .add_systems(Update, toggle)
         .run();

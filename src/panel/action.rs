@@ -4,6 +4,7 @@ use bevy::ecs::entity::Entity;
 
 use crate::{
     heat::HeatMap,
+    pointing::CoatingBrush,
     settings::{Field, Preset},
 };
 
@@ -26,6 +27,12 @@ pub(super) enum Action {
     Heat(Option<HeatMap>),
     /// Switch the gizmos on or off.
     Gizmos(bool),
+    /// Take this brush into the hand.
+    Brush(CoatingBrush),
+    /// Take the last stroke back.
+    Undo,
+    /// Let it happen again.
+    Redo,
     /// Save the state of the prop.
     SaveState,
     /// Put the prop back into its saved state.

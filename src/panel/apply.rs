@@ -12,6 +12,7 @@ use crate::{
     api::{coating::SettingsSource, heat_map_view::HeatMapView},
     gizmos::CoatingGizmos,
     settings::CoatingSettings,
+    stepping::TouchCommands,
     timeline::CoatingCommands,
 };
 
@@ -65,6 +66,17 @@ pub(super) fn apply(action: Action, panel: &mut CoatingPanel, world: &mut PanelW
                 store.config_mut::<CoatingGizmos>().0.enabled = on;
             }
         }
+        Action::Brush(brush) => {
+            if let Some(held) = &mut world.brush {
+                held.set_if_neq(brush);
+            }
+        }
+        Action::Undo => targets(panel, world).into_iter().for_each(|prop| {
+            world.commands.entity(prop).undo_touch();
+        }),
+        Action::Redo => targets(panel, world).into_iter().for_each(|prop| {
+            world.commands.entity(prop).redo_touch();
+        }),
         Action::SaveState => save_state(panel, world),
         Action::RestoreState => restore_state(panel, world),
         Action::Pause(paused) => world.clock.paused = paused,

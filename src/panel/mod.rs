@@ -3,7 +3,7 @@
 //! | place | contents |
 //! |---|---|
 //! | left | every setting of the chosen prop by the paper's stages, presets, files |
-//! | right | props, heat map and gizmos, figures over age, times of stages, saved state |
+//! | right | props, heat map and gizmos, brush, figures over age, times of stages, saved state |
 //! | bottom | clock: run, step, speed, and a bar that goes to any age |
 //!
 //! Each frame goes through three hands: [`view`] collects what there is to see, the parts of the panel draw it and
@@ -12,6 +12,7 @@
 mod action;
 mod apply;
 mod bar;
+mod brush_group;
 mod cell;
 mod figures;
 mod files;
@@ -108,6 +109,14 @@ fn show_panel(mut contexts: EguiContexts, mut panel: ResMut<CoatingPanel>, mut w
     let right = egui::Panel::right("coating watch").exact_size(RIGHT).resizable(false);
     let right = right.show(&mut root, |ui| watch_side::show(ui, &view, &mut panel, &mut actions));
     panel.places.insert(PanelWidget::Right, right.response.rect);
+    // What happens over the panel belongs to it, and not to the brush.
+    let sides = [bottom, left, right].map(|side| side.response.rect);
+    let pointer = root.ctx().input(|input| input.pointer.interact_pos());
+    let is_over = root.ctx().egui_is_using_pointer()
+        || pointer.is_some_and(|pointer| sides.iter().any(|side| side.contains(pointer)));
+    if let Some(brush) = world.brush.as_mut().filter(|brush| brush.blocked != is_over) {
+        brush.blocked = is_over;
+    }
     for action in actions {
         apply::apply(action, &mut panel, &mut world);
     }

@@ -29,6 +29,7 @@ use crate::{
     },
     film::FilmMesh,
     gizmos::CoatingGizmos,
+    pointing::CoatingBrush,
     settings::CoatingSettings,
     sim::FilmClock,
     timeline::FilmHistory,
@@ -63,6 +64,7 @@ pub(super) struct PanelWorld<'w, 's> {
         Query<'w, 's, (&'static CoatedBy, &'static mut FilmClock, &'static FilmMesh, Option<&'static FilmHistory>)>,
     pub clock: ResMut<'w, CoatingClock>,
     pub gizmos: Option<ResMut<'w, GizmoConfigStore>>,
+    pub brush: Option<ResMut<'w, CoatingBrush>>,
     pub assets: Res<'w, Assets<CoatingSettings>>,
     diagnostics: Option<Res<'w, DiagnosticsStore>>,
     statistics: Res<'w, Statistics>,
@@ -102,6 +104,8 @@ pub(super) struct View {
     pub times: [(&'static str, Option<f64>); 5],
     /// Whether gizmos are drawn; `None` where they cannot be.
     pub gizmos: Option<bool>,
+    /// Brush in the hand; `None` where nothing points at films.
+    pub brush: Option<CoatingBrush>,
     /// Figures of the prop, by age.
     pub samples: Arc<Vec<Sample>>,
 }
@@ -139,6 +143,7 @@ impl PanelWorld<'_, '_> {
             travels,
             times: STAGES.map(|(name, path)| (name, self.time(&path))),
             gizmos: self.gizmos.as_ref().and_then(|store| Some(store.get_config::<CoatingGizmos>()?.0.enabled)),
+            brush: self.brush.as_ref().map(|brush| CoatingBrush::clone(brush)),
             samples: chosen.map(|chosen| self.statistics.of(chosen)).unwrap_or_default(),
         }
     }

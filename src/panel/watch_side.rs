@@ -1,10 +1,10 @@
 //! The right side: props, heat maps, gizmos, figures over age, times of stages, saved state.
 
-use bevy_egui::egui::{Button, RichText, ScrollArea, Ui};
+use bevy_egui::egui::{Button, CollapsingHeader, RichText, ScrollArea, Ui};
 
 use super::{
     action::Action,
-    bar,
+    bar, brush_group,
     cell::{ROW, cell, right_text, text},
     figures::PLOTS,
     legend,
@@ -27,14 +27,16 @@ pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: 
     ui.separator();
     ui.heading("Heat map");
     maps(ui, view, panel, actions);
+    brush_group::show(ui, view, panel, actions);
     ui.separator();
     ui.heading("Over age");
     for plot in &PLOTS {
         plot.show(ui, &view.samples, view.age, bar::last_age(view));
     }
     ui.separator();
-    ui.heading("Time of a frame");
-    times(ui, view);
+    // Where there is a brush, there is no room for both.
+    let times_are_open = view.brush.is_none();
+    CollapsingHeader::new("Time of a frame").default_open(times_are_open).show(ui, |ui| times(ui, view));
     ui.separator();
     state(ui, view, panel, actions);
 }

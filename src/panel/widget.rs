@@ -37,6 +37,14 @@ pub enum PanelWidget {
     Heat(Option<HeatMap>),
     /// Box that switches the gizmos.
     Gizmos,
+    /// Button of the brush with this name, like `weaken`.
+    Brush(&'static str),
+    /// Slider of the brush's radius.
+    BrushRadius,
+    /// Button that takes the last stroke back.
+    Undo,
+    /// Button that lets the stroke happen again that was taken back last.
+    Redo,
     /// Button that saves the state of the prop.
     SaveState,
     /// Button that puts the prop back into its saved state.

@@ -38,11 +38,14 @@ pub struct CoatingBrush {
     pub spacing: f32,
     /// Button of the pointer that paints. Default: the primary one.
     pub button: PointerButton,
+    /// Whether pointers belong to something else at the moment, like a panel over the film: no stroke begins, and one
+    /// under way waits. Default false. The panel of this crate sets it.
+    pub blocked: bool,
 }
 
 impl Default for CoatingBrush {
     fn default() -> Self {
-        Self { effect: None, radius: 0.1, hardness: 0.5, spacing: 0.25, button: PointerButton::Primary }
+        Self { effect: None, radius: 0.1, hardness: 0.5, spacing: 0.25, button: PointerButton::Primary, blocked: false }
     }
 }
 
@@ -80,13 +83,14 @@ pub(super) fn paint(
             root.touch_at(touch);
         }
     };
-    for press in presses.read().filter(|press| press.event.button == brush.button && brush.effect.is_some()) {
+    let may_paint = brush.effect.is_some() && !brush.blocked;
+    for press in presses.read().filter(|press| press.event.button == brush.button && may_paint) {
         let Some((hit, position)) = film_hit(&press.event.hit) else { continue };
         stroke.number += 1;
         stroke.drawing = Some((press.pointer_id, position));
         touch(hit, position, stroke.number);
     }
-    for moved in moves.read() {
+    for moved in moves.read().filter(|_| may_paint) {
         let Some((pointer, last)) = stroke.drawing.filter(|&(pointer, _)| pointer == moved.pointer_id) else {
             continue;
         };

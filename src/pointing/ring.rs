@@ -29,7 +29,7 @@ pub(super) fn draw_ring(
     films: Query<(&FilmMesh, &FilmSource, &GlobalTransform)>,
     mut gizmos: Gizmos<BrushGizmos>,
 ) {
-    let Some(hovered) = hovered.filter(|_| brush.effect.is_some()) else { return };
+    let Some(hovered) = hovered.filter(|_| brush.effect.is_some() && !brush.blocked) else { return };
     for (&film, hit) in hovered.values().flatten() {
         let Some(FilmHit { point, .. }) = hit.extra_as::<FilmHit>() else { continue };
         let Ok((mesh, source, transform)) = films.get(film) else { continue };

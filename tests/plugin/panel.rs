@@ -4,7 +4,11 @@ use std::collections::BTreeMap;
 
 use bevy::{gltf::GltfAssetLabel, prelude::*, world_serialization::WorldAssetRoot};
 use bevy_coating::{
-    CoatingGizmos, CoatingPanel, CoatingPanelPlugin, HeatMapView, PanelWidget, heat::HeatMap, prelude::*,
+    CoatingBrush, CoatingGizmos, CoatingPanel, CoatingPanelPlugin, HeatMapView, PanelWidget,
+    film::FilmMesh,
+    heat::HeatMap,
+    prelude::*,
+    touch::{Change, Effect},
 };
 use bevy_egui::{
     EguiContext, EguiGlobalSettings, EguiPlugin, PrimaryEguiContext,
@@ -334,4 +338,35 @@ fn without_egui_there_is_no_panel_and_no_panic() {
     wait_for_films(&mut app, 1);
     take_steps(&mut app, 3);
     assert_eq!(app.world().resource::<CoatingPanel>().places().count(), 0);
+}
+
+#[test]
+fn a_brush_is_taken_from_the_panel_and_strokes_are_taken_back() {
+    let Some(mut desk) = Desk::with_plates() else { return };
+    desk.world().init_resource::<CoatingBrush>();
+    desk.studio.app.update();
+    let brush = |desk: &Desk| desk.studio.app.world().resource::<CoatingBrush>().clone();
+    desk.click(PanelWidget::Brush("weaken"));
+    assert_eq!(brush(&desk).effect, Some(Effect::Adhesion(Change::Multiply(0.7))));
+    assert!(brush(&desk).blocked, "the pointer is over the panel");
+    desk.drag(PanelWidget::BrushRadius, 0.2, 0.4);
+    assert_ne!(brush(&desk).radius, CoatingBrush::default().radius);
+    desk.send(egui::Event::PointerMoved(pos2(640.0, 300.0)));
+    desk.studio.app.update();
+    assert!(!brush(&desk).blocked, "it is over the films");
+    desk.click(PanelWidget::Brush("weaken"));
+    assert_eq!(brush(&desk).effect, None, "it is put away");
+
+    let prop = desk.prop();
+    let place = desk.studio.app.world().get::<GlobalTransform>(prop).expect("a place");
+    let middle = place.transform_point(Vec3::new(0.5, 0.5, 0.0));
+    desk.world().commands().entity(prop).touch_at(TouchAt::new(middle, 0.2, Effect::Strip).in_stroke(1));
+    desk.studio.app.update();
+    let gone = |app: &App| app.world().get::<FilmMesh>(prop).expect("a film").topology.removed_face_count();
+    let stripped = gone(&desk.studio.app);
+    assert!(stripped > 0);
+    desk.click(PanelWidget::Undo);
+    update_until(&mut desk.studio.app, |app| gone(app) == 0);
+    desk.click(PanelWidget::Redo);
+    update_until(&mut desk.studio.app, |app| gone(app) == stripped);
 }
