@@ -173,7 +173,7 @@ fn a_crack_follows_a_scored_line() {
     let ((on, all), (before, _)) = (on_line(reached(&film)), on_line(reached(&same)));
     println!("{on} of {all}; {before} without the line");
     // Film tears only where it has let go of the metal, so a line opens bit by bit.
-    assert!(on as f32 >= 0.75 * all as f32 && on >= 3 * before && on > 12, "{on} of {all}; {before} without the line");
+    assert!(on as f32 >= 0.9 * all as f32 && on >= 3 * before && on > 12, "{on} of {all}; {before} without the line");
 }
 
 #[test]
