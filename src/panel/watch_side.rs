@@ -36,7 +36,9 @@ pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: 
     ui.separator();
     // Where there is a brush, there is no room for both.
     let times_are_open = view.brush.is_none();
-    CollapsingHeader::new("Time of a frame").default_open(times_are_open).show(ui, |ui| times(ui, view));
+    let header =
+        CollapsingHeader::new("Time of a frame").id_salt(("times", times_are_open)).default_open(times_are_open);
+    header.show(ui, |ui| times(ui, view));
     ui.separator();
     state(ui, view, panel, actions);
 }

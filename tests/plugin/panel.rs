@@ -302,8 +302,10 @@ fn the_panel_over_the_sign_can_be_looked_at() {
     println!("the sign lies between {low} and {high}");
     let (target, size) = (low.midpoint(high), (high - low).length());
     let eye = target + Vec3::new(0.25, 0.1, 1.0).normalize() * size * 1.5;
+    desk.world().init_resource::<CoatingBrush>();
     desk.click(PanelWidget::Prop(sign));
     assert_eq!(desk.prop(), sign);
+    desk.click(PanelWidget::Brush("weaken"));
     let plain = desk.studio.shoot(eye, target);
     save(&plain, "panel");
     desk.click(PanelWidget::Heat(Some(HeatMap::Adhesion)));
