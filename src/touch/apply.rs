@@ -67,7 +67,7 @@ pub fn touch(
         Effect::Wash(share) => change_stains(&mut parts, touch, &reach, |stain, strength| stain.wash(share * strength)),
         Effect::Sand(share) => {
             change_stains(&mut parts, touch, &reach, |stain, strength| stain.sand(share * strength));
-            let loose = loose_under(&parts, &Touch { radius: touch.radius * share.max(0.5), ..*touch }, &reach);
+            let loose = if share > 0.0 { loose_under(&parts, touch, &reach) } else { Vec::new() };
             strip(parts, settings, environment, &loose, &mut touched.changes);
         }
         Effect::Strip => {

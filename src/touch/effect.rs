@@ -43,16 +43,16 @@ pub enum Effect {
     /// under it is clean, too.
     Repaint,
     /// Strikes with this force at the core, in units of the initial contraction, 0 to 1,000: film lets go and chips
-    /// off where the blow is stronger than what holds it, and cracks begin around. 5 chips fresh paint of the default
-    /// settings, 2 paint of age 0.5. It dents nothing.
+    /// off where the blow is stronger than what holds it, and cracks begin around. By the default settings 0.5 does
+    /// nothing to paint of age 0.2, and 5 knocks a hole. It dents nothing.
     Hit(f32),
     /// Cuts the film along a line to another place with a blade; the radius does not matter.
     Scratch(Site),
     /// Washes with this thoroughness, 0 to 1: takes dust and wet rust away and leaves it wet. Half of what rust has
     /// stained stays.
     Wash(f32),
-    /// Sands with this thoroughness, 0 to 1: takes dust, stains and the rust of open metal away, and film that no
-    /// longer lies on the metal.
+    /// Sands with this thoroughness, 0 to 1: takes dust, stains and the rust of open metal away. Above 0 it also takes
+    /// film that no longer lies on the metal.
     Sand(f32),
 }
 

@@ -5,7 +5,7 @@ use super::{
     reach::{Reach, originals_of},
 };
 use crate::{
-    film::{HalfEdgeId, Topology, VertexId},
+    film::{FaceId, HalfEdgeId, Topology, VertexId},
     sim::edit::FilmParts,
     stain::Stain,
 };
@@ -14,16 +14,10 @@ impl Change {
     /// Returns what becomes of `value` where the change has this strength, from 0 to 1.
     fn of(self, value: f32, strength: f32) -> f32 {
         match self {
-            // At full strength exactly; an infinite force is set or not.
-            Self::Set(to) if strength >= 1.0 || (to == f32::INFINITY && strength >= 0.5) => to,
-            Self::Set(f32::INFINITY) => value,
-            Self::Set(to) if value == f32::INFINITY => {
-                if strength >= 0.5 {
-                    to
-                } else {
-                    value
-                }
-            }
+            // To and from infinity there is no way between.
+            Self::Set(to) if to == f32::INFINITY || value == f32::INFINITY => [value, to][usize::from(strength >= 0.5)],
+            // Exactly.
+            Self::Set(to) if strength >= 1.0 => to,
             Self::Set(to) => value + (to - value) * strength,
             Self::Add(more) => value + more * strength,
             Self::Multiply(_) => value * self.factor(strength),
@@ -111,8 +105,8 @@ pub(super) fn change_stains(parts: &mut FilmParts, touch: &Touch, reach: &Reach,
 }
 
 /// Returns the faces of `reach` on which the touch has at least half of its strength, and that of the touch itself.
-pub(super) fn faces_under(topology: &Topology, touch: &Touch, reach: &Reach) -> Vec<crate::film::FaceId> {
-    let felt = |f: crate::film::FaceId| f == touch.site.face || touch.strength(reach.distance_of(topology, f)) >= 0.5;
+pub(super) fn faces_under(topology: &Topology, touch: &Touch, reach: &Reach) -> Vec<FaceId> {
+    let felt = |f: FaceId| f == touch.site.face || touch.strength(reach.distance_of(topology, f)) >= 0.5;
     reach.faces.iter().copied().filter(|&f| felt(f)).collect()
 }
 
