@@ -182,9 +182,11 @@ pub use api::{
     links::{CoatedBy, CoatedMesh, CoatingFilms, CoatingPart},
     masks::CoatingMasks,
     messages::{
-        AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+        AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, FirstSeparation, PieceFallen, RatingReached,
+        RestoreFailed,
     },
     outline::{PropMask, PropOutline},
+    paint::Paint,
     seed::CoatingSeed,
     shelter::{RainShelter, Shelter},
     snapshot::{CoatingSnapshot, SaveError, SavedFilm},
@@ -193,7 +195,7 @@ pub use api::{
     summary::FilmSummary,
     system_sets::{CoatingAdvance, CoatingAttach, CoatingDisplay, CoatingStep, CoatingSystems},
     unit::CoatingUnit,
-    weather::CoatingWeather,
+    weather::{CoatingWeather, PropWeather},
 };
 #[cfg(feature = "plugin")]
 pub use display::{ATTRIBUTE_REST, ATTRIBUTE_REST_NORMAL, ATTRIBUTE_STAINS};

@@ -18,7 +18,8 @@ use crate::{
         clock::{CoatingClock, CoatingGravity},
         diagnostics,
         messages::{
-            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, FirstSeparation, PieceFallen, RatingReached,
+            RestoreFailed,
         },
         status::CoatingStatus,
         system_sets::{CoatingAdvance, CoatingDisplay},
@@ -93,6 +94,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .init_resource::<stepping::ReachedPace>()
             .add_message::<FilmReady>()
             .add_message::<FilmFailed>()
+            .add_message::<FirstSeparation>()
             .add_message::<FirstCrack>()
             .add_message::<PieceFallen>()
             .add_message::<FilmRepainted>()
@@ -103,7 +105,12 @@ impl Plugin for CoatingWeatheringPlugin {
         stepping::add_step_schedule(app);
         add_attachment(app);
         add_debris(app);
-        let checks = (stepping::check_weather, stepping::check_clock, stepping::follow_coatings);
+        let checks = (
+            stepping::check_weather,
+            stepping::check_weather_of_props,
+            stepping::check_clock,
+            stepping::follow_coatings,
+        );
         let travels = (timeline::follow_histories, timeline::hand_out_ages, timeline::travel).chain();
         app.add_systems(self.schedule, (checks, travels, stepping::advance).chain().in_set(CoatingAdvance));
         app.add_plugins(FilmDisplayPlugin);
@@ -112,6 +119,7 @@ impl Plugin for CoatingWeatheringPlugin {
             (
                 announce::<FilmReady>,
                 announce::<FilmFailed>,
+                announce::<FirstSeparation>,
                 announce::<FirstCrack>,
                 announce::<PieceFallen>,
                 announce::<FilmRepainted>,

@@ -16,7 +16,8 @@ pub use crate::{
         links::{CoatedBy, CoatingFilms},
         masks::CoatingMasks,
         messages::{
-            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, PieceFallen, RatingReached, RestoreFailed,
+            AgeReached, FilmFailed, FilmReady, FilmRepainted, FirstCrack, FirstSeparation, PieceFallen, RatingReached,
+            RestoreFailed,
         },
         outline::{PropMask, PropOutline},
         seed::CoatingSeed,
@@ -27,7 +28,7 @@ pub use crate::{
         summary::FilmSummary,
         system_sets::{CoatingStep, CoatingSystems},
         unit::CoatingUnit,
-        weather::CoatingWeather,
+        weather::{CoatingWeather, PropWeather},
     },
     plugin::CoatingWeatheringPlugin,
     stepping::{TouchAt, TouchCommands},

@@ -83,6 +83,19 @@ impl CoatingCalendar {
         self.date += age;
     }
 
+    /// Returns the environment of a film at `transform` whose prop has had one weather of its own since `date`, with the
+    /// age that has passed.
+    pub(crate) fn since_in(
+        &self,
+        date: f64,
+        weather: CoatingWeather,
+        gravity: CoatingGravity,
+        transform: &GlobalTransform,
+    ) -> Vec<(f64, Environment)> {
+        let age = self.date - date;
+        if age > 0.0 && age.is_finite() { vec![(age, weather.environment(gravity, transform))] } else { Vec::new() }
+    }
+
     /// Returns the environments of a film at `transform` since `date`, with the age that passed in each. Of what lies
     /// before the first weather that is known, `before` is taken. Since a date that is none, nothing has passed.
     pub(crate) fn since(

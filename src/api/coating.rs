@@ -7,7 +7,8 @@ use bevy::{
 };
 
 use super::{
-    masks::CoatingMasks, outline::PropOutline, shelter::Shelter, stain_display::StainDisplay, weather::CoatingWeather,
+    masks::CoatingMasks, outline::PropOutline, paint::Paint, shelter::Shelter, stain_display::StainDisplay,
+    weather::CoatingWeather,
 };
 use crate::{
     appearance::{
@@ -110,7 +111,7 @@ pub struct Coating {
     /// Sides and holes of backs and metal where the prop's material is not a `StandardMaterial`. Default:
     /// [`PropOutline::default`], front sides without holes.
     pub outline: PropOutline,
-    /// Masks: where the films are weak or dirty from the start. Default: none.
+    /// Masks: where the films are weak or dirty from the start. Default: none; [presets](Preset) may bring some.
     pub masks: CoatingMasks,
     /// How finely the film is shown, and how its torn edges look. Default: [`Detail::default`], the film's own
     /// triangles. From level 1 on the film follows the prop's own surface however coarse it is, curls are smooth, torn
@@ -142,7 +143,8 @@ impl Default for Coating {
 }
 
 impl Coating {
-    /// Returns a coating with `settings`: a [`Preset`], [`CoatingSettings`], or the handle of a settings asset.
+    /// Returns a coating with this paint: a [`Preset`] with its [masks](Preset::masks), [`CoatingSettings`], or the
+    /// handle of a settings asset.
     ///
     /// ```
     /// use bevy_coating::prelude::*;
@@ -152,11 +154,12 @@ impl Coating {
     /// settings.adhesion.mean = 1.8;
     /// assert_ne!(Coating::new(settings).settings, preset.settings);
     /// ```
-    pub fn new(settings: impl Into<SettingsSource>) -> Self {
-        Self { settings: settings.into(), ..Self::default() }
+    pub fn new(paint: impl Into<Paint>) -> Self {
+        let Paint { settings, masks } = paint.into();
+        Self { settings, masks, ..Self::default() }
     }
 
-    /// Returns a coating with the settings of the [preset](Preset) called `name`, for names that users type. In code
+    /// Returns a coating with the settings and masks of the [preset](Preset) called `name`, for names that users type. In code
     /// [`Coating::new(Preset::Heavy)`](Self::new) is simpler, as it cannot fail.
     ///
     /// # Errors
@@ -169,7 +172,7 @@ impl Coating {
     /// assert!(Coating::preset("haevy").is_err());
     /// ```
     pub fn preset(name: &str) -> Result<Self, SettingsError> {
-        Ok(Self::new(CoatingSettings::preset(name)?))
+        Ok(Self::new(name.parse::<Preset>()?))
     }
 
     /// Sets the [`seed`](Self::seed) of all random choices.
@@ -310,7 +313,7 @@ impl Coating {
         Self { outline, ..self }
     }
 
-    /// Sets the [`masks`](Self::masks), which say where films begin weak or dirty.
+    /// Sets the [`masks`](Self::masks), which say where films begin weak or dirty, in the place of those of a preset.
     pub fn with_masks(self, masks: impl Into<CoatingMasks>) -> Self {
         Self { masks: masks.into(), ..self }
     }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bevy::{ecs::component::Component, math::Vec3, transform::components::GlobalTransform};
 
-use super::{coating::Coating, error::CoatingFault, step_account::StepAccount};
-use crate::{deform::SolverQuality, settings::CoatingSettings, stain::Environment};
+use super::{coating::Coating, error::CoatingFault, step_account::StepAccount, weather::CoatingWeather};
+use crate::{deform::SolverQuality, fracture::FilmForces, settings::CoatingSettings, stain::Environment};
 
 /// Smallest share of the view that a film counts with, so that none waits more than 16 times longer than another.
 const LEAST_SHARE: f32 = 1.0 / 16.0;
@@ -28,6 +28,10 @@ pub struct FilmPace {
     pub paused: bool,
     /// Gravity and weather in the film's space, renewed every frame.
     pub environment: Environment,
+    /// Steps [requested](Self::request_steps) of this film since the last frame. The next frame sets this to 0.
+    pub requested_steps: u64,
+    /// Weather of the prop, if it has one of its own.
+    pub(crate) weather: Option<CoatingWeather>,
     /// Steps that the film is owed, and those that it has taken in this frame.
     pub(crate) account: StepAccount,
     /// Steps planned in this frame.
@@ -38,6 +42,8 @@ pub struct FilmPace {
     pub(crate) travels: bool,
     /// Whether the film takes the step that is under way.
     pub(crate) due: bool,
+    /// Whether the first vertex that let go has been reported.
+    pub(crate) separated: bool,
     /// Whether the first crack has been reported.
     pub(crate) cracked: bool,
     /// Centre and radius of a sphere around the film at rest, in its own space.
@@ -51,25 +57,57 @@ pub struct FilmPace {
 }
 
 impl FilmPace {
-    /// Returns the pace of a film that has taken no steps. `cracked` says whether it has cracks already.
-    pub(crate) fn new(settings: Arc<CoatingSettings>, cracked: bool) -> Self {
+    /// Returns the pace of a film that has taken no steps.
+    pub(crate) fn new(settings: Arc<CoatingSettings>) -> Self {
         Self {
             settings,
             quality: SolverQuality::default(),
             rate: 1.0,
             paused: false,
             environment: Environment::default(),
+            requested_steps: 0,
+            weather: None,
             account: StepAccount::default(),
             planned: 0,
             held: false,
             travels: false,
             due: false,
-            cracked,
+            separated: false,
+            cracked: false,
             bounds: (Vec3::ZERO, 0.0),
             credit: 0.0,
             postponed: false,
             cost: 0,
         }
+    }
+
+    /// Takes what has happened to a film as told: first messages are about what comes after.
+    pub(crate) fn know(&mut self, forces: &FilmForces) {
+        self.separated = forces.separations > 0;
+        self.cracked = forces.torn_edges > 0;
+    }
+
+    /// Requests `steps` further steps of this film alone, also while the clock is paused. A film that is paused itself
+    /// takes none. [`CoatingCommands::request_steps`](crate::CoatingCommands::request_steps) does so for all films of
+    /// a prop.
+    ///
+    /// ```
+    /// use bevy::prelude::*;
+    /// use bevy_coating::{FilmPace, prelude::*};
+    ///
+    /// fn nudge(mut films: Query<&mut FilmPace>) {
+    ///     for mut film in &mut films {
+    ///         film.request_steps(5);
+    ///     }
+    /// }
+    /// # let mut app = App::new();
+    /// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+    /// # app.add_plugins(CoatingWeatheringPlugin::default());
+    /// app.add_systems(Update, nudge);
+    /// app.update();
+    /// ```
+    pub fn request_steps(&mut self, steps: u64) {
+        self.requested_steps = self.requested_steps.saturating_add(steps);
     }
 
     /// Takes over the pause, the quality and the rate of its coating.

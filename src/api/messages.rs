@@ -111,6 +111,36 @@ pub struct FilmFailed {
     pub error: CoatingError,
 }
 
+/// Message that a film has let go of its metal for the first time: at one vertex, where it may begin to crack and curl.
+/// It is not sent for films that have separated already when they appear.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// fn hint(mut separations: MessageReader<FirstSeparation>) {
+///     for first in separations.read() {
+///         info!("paint is loose at {} from age {:.2} on", first.position, first.age);
+///     }
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Update, hint);
+/// app.update();
+/// ```
+#[derive(Message, EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[entity_event(propagate, auto_propagate)]
+pub struct FirstSeparation {
+    /// Entity of the film.
+    pub entity: Entity,
+    /// Age of the film: 0 is fresh.
+    pub age: f64,
+    /// Position of the vertex, in world space.
+    pub position: Vec3,
+}
+
 /// Message that the first edge of a film has torn. It is not sent for films that are cracked already when they appear.
 ///
 /// ```

@@ -21,6 +21,7 @@ pub(crate) mod links;
 pub(crate) mod masks;
 pub(crate) mod messages;
 pub(crate) mod outline;
+pub(crate) mod paint;
 pub(crate) mod seed;
 pub(crate) mod shelter;
 pub(crate) mod snapshot;

@@ -1,7 +1,11 @@
-//! Defines [`CoatingWeather`], the weather of all films.
+//! Defines [`CoatingWeather`], the weather of all films, and [`PropWeather`], that of one prop.
 
 use bevy::{
-    ecs::{reflect::ReflectResource, resource::Resource},
+    ecs::{
+        component::Component,
+        reflect::{ReflectComponent, ReflectResource},
+        resource::Resource,
+    },
     math::Vec3,
     reflect::prelude::*,
     transform::components::GlobalTransform,
@@ -57,6 +61,36 @@ pub struct CoatingWeather {
     /// Direction in which sunlight falls. Its length is the strength of the sun: 0 to 1, default zero (shade).
     pub sun: Vec3,
 }
+
+/// Weather of one prop, beside its [`Coating`](super::coating::Coating), instead of the world's [`CoatingWeather`]: for
+/// a cellar, a ship's hull, a rain machine.
+///
+/// It may be changed at any time, and removed. It holds for all films of the coating, for time that is
+/// [skipped](super::clock::CoatingClock::skip), and since the prop was
+/// [painted](super::coating::Coating::painted): the calendar tells the world's weather only. Ranges, and what becomes
+/// of values out of range, are those of [`CoatingWeather`]. Sheltering meshes keep rain and sun off as they do
+/// elsewhere.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use bevy_coating::prelude::*;
+///
+/// /// It rains everywhere, but not in the cellar.
+/// fn spawn_boiler(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, mut weather: ResMut<CoatingWeather>) {
+///     weather.rain = Vec3::NEG_Y;
+///     let boiler = meshes.add(Cylinder::new(0.4, 1.2));
+///     commands.spawn((Mesh3d(boiler), Coating::default(), PropWeather(CoatingWeather::default())));
+/// }
+///
+/// # let mut app = App::new();
+/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
+/// # app.add_plugins(CoatingWeatheringPlugin::default());
+/// app.add_systems(Startup, spawn_boiler);
+/// app.update();
+/// ```
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Default, Debug, Clone, PartialEq)]
+pub struct PropWeather(pub CoatingWeather);
 
 impl CoatingWeather {
     /// Returns the weather with every value clamped to its range, and the names of the values that were out of range.

@@ -93,6 +93,7 @@ fn speaks(json: &str) -> bool {
     !matches!(PropExtras::read(json), Ok(None))
 }
 
-fn coating_of(PropCoating { settings, seed, start_age, .. }: PropCoating) -> Coating {
-    Coating { seed, start_age: start_age.unwrap_or_default(), ..Coating::new(settings) }
+fn coating_of(PropCoating { preset, settings, seed, start_age }: PropCoating) -> Coating {
+    let masks = preset.masks().into();
+    Coating { seed, masks, start_age: start_age.unwrap_or_default(), ..Coating::new(settings) }
 }

@@ -113,7 +113,8 @@ fn put_on(
     let FilmReadiness { film: state, history, refused, settings, warnings, mut display, mut shelter, origin } = ready;
     let FilmState { mesh, forces, constraints, stains, clock, changes, scratch, .. } = state;
     let triangles = mesh.topology.face_count();
-    let mut pace = FilmPace::new(settings, forces.torn_edges > 0);
+    let mut pace = FilmPace::new(settings);
+    pace.know(&forces);
     // A rate that has gone out of range meanwhile is told before the first step.
     let _ = pace.follow(coating);
     pace.bounds = crate::stepping::bounds(&mesh.geometry, origin, build.metres_per_unit);

@@ -27,7 +27,7 @@ use crate::{
         links::{FilmSlot, place_of},
         shelter::Shelter,
         unit::CoatingUnit,
-        weather::CoatingWeather,
+        weather::{CoatingWeather, PropWeather},
     },
     deform::SolverQuality,
     settings::CoatingSettings,
@@ -97,15 +97,20 @@ pub(super) fn inputs_of(
     }
     let metres_per_unit = world.get_resource::<CoatingUnit>().copied().unwrap_or_default().checked()?;
     let gravity = world.get_resource::<CoatingGravity>().copied().unwrap_or_default();
-    let today = world.get_resource::<CoatingWeather>().copied().unwrap_or_default();
+    let own = world.get::<PropWeather>(root).map(|own| own.0);
+    let today = own.or(world.get_resource::<CoatingWeather>().copied()).unwrap_or_default();
     let past = coating.key().past_weather.unwrap_or_default();
     // Rays are cast for the past if it needs them, else for today, so that the film need not wait for them later.
     let cast_for = if past.reaches_anything() { past } else { today };
-    let calendar = world.get_resource::<CoatingCalendar>().cloned().unwrap_or_default();
+    let fresh = CoatingCalendar::default();
+    let calendar = world.get_resource::<CoatingCalendar>().unwrap_or(&fresh);
     // Today's rate is taken for all of the past.
     let since = |date: f64| {
-        let lived = calendar.since(date, past, gravity, &transform).into_iter();
-        lived.map(|(age, environment)| (age * coating.rate, environment))
+        let lived = match own {
+            Some(own) => calendar.since_in(date, own, gravity, &transform),
+            None => calendar.since(date, past, gravity, &transform),
+        };
+        lived.into_iter().map(|(age, environment)| (age * coating.rate, environment))
     };
     let mut lived = vec![(coating.start_age, past.environment(gravity, &transform))];
     lived.extend(coating.painted.into_iter().flat_map(since));

@@ -12,9 +12,9 @@ use super::{
     warning::BakeWarning,
 };
 use crate::{
-    masks::{MaskError, MaskGround, apply_masks},
+    masks::{CoatingMask, MaskError, MaskGround, apply_masks},
     remesh::{self, BuiltFilm, FilmTarget, film_targets},
-    settings::CoatingSettings,
+    settings::{CoatingSettings, Preset},
     sim::{FilmState, PathStep, coarser_than_grain, film_seed},
     surface::{BuildError, Surface},
 };
@@ -173,7 +173,7 @@ impl Job {
             if let Some(film) = &mut film {
                 let (surface, gravity) = (&self.mesh.surface, options.environment.gravity);
                 let ground = MaskGround { surface, built: &built, gravity, images: &options.mask_images };
-                masked = apply_masks(film, &options.masks, &ground);
+                masked = apply_masks(film, &masks_of(&self.mesh, options), &ground);
                 film.quality = options.quality;
                 // The resolution is not that of a film that came with its mesh.
                 let coarse = coarser_than_grain(&film.mesh, options.resolution, self.target, &settings.scale);
@@ -187,6 +187,15 @@ impl Job {
 /// Returns the settings of a mesh: those of its custom properties, else of the options.
 fn settings_of<'a>(mesh: &'a ModelMesh, options: &'a BakeOptions) -> &'a CoatingSettings {
     mesh.coating().map_or(&options.settings, |coating| &coating.settings)
+}
+
+/// Returns the masks of a mesh: those of the preset that its custom properties or the options name, and all of the
+/// options.
+fn masks_of(mesh: &ModelMesh, options: &BakeOptions) -> Vec<CoatingMask> {
+    let preset = mesh.coating().map_or_else(|| options.preset.parse().ok(), |coating| Some(coating.preset));
+    let mut masks = preset.map(Preset::masks).unwrap_or_default();
+    masks.extend(options.masks.iter().cloned());
+    masks
 }
 
 /// Returns the target of each film. Triangles are shared between all of them; each is as fine as its own grain asks.

@@ -41,7 +41,8 @@ pub struct BakeOptions {
     pub metres_per_unit: f32,
     /// Settings of the coating.
     pub settings: CoatingSettings,
-    /// Name of the settings in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`.
+    /// Name of the settings, also in the figures ([`RunStats::preset`](super::RunStats::preset)); default `default`. If
+    /// it is that of a [preset](crate::settings::Preset), films have its masks, too.
     pub preset: String,
     /// Age to reach: 0 to [`MAX_AGE`], default 1, the end of the reference run.
     pub age: f64,
@@ -63,7 +64,8 @@ pub struct BakeOptions {
     /// Whether custom properties of a model say how it is painted ([`extras`](crate::extras)); default true. What they
     /// say goes before [`settings`](Self::settings) and [`seed`](Self::seed).
     pub extras: bool,
-    /// Masks of the films: where they are weak or dirty from the start; default none. They act on all meshes.
+    /// Masks of the films beside those of the preset: where they are weak or dirty from the start; default none. They
+    /// act on all meshes.
     pub masks: Vec<CoatingMask>,
     /// Images that the masks name; default none.
     pub mask_images: MaskImages,

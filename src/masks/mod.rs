@@ -56,6 +56,7 @@ mod image;
 mod mask;
 mod names;
 mod noise;
+mod presets;
 mod read;
 mod sites;
 #[cfg(test)]

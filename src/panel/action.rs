@@ -23,6 +23,11 @@ pub(super) enum Action {
     LoadFile,
     /// Save the settings into the file.
     SaveFile,
+    /// Follow the settings file, or do not.
+    FollowFile(bool),
+    /// Age the model with the chosen prop's paint, and write it.
+    #[cfg(feature = "bake")]
+    Bake,
     /// Show a heat map, or none.
     Heat(Option<HeatMap>),
     /// Switch the gizmos on or off.

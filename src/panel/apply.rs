@@ -5,6 +5,7 @@ use bevy::ecs::{change_detection::DetectChangesMut, entity::Entity};
 use super::{
     action::Action,
     files,
+    followed::Seen,
     state::CoatingPanel,
     view::{PanelWorld, settings_of},
 };
@@ -45,10 +46,27 @@ pub(super) fn apply(action: Action, panel: &mut CoatingPanel, world: &mut PanelW
             let coating = panel.prop.and_then(|prop| world.props.get(prop).ok());
             let settings = coating.as_ref().and_then(|prop| settings_of(prop.coating, &world.assets));
             if let Some(settings) = settings {
-                panel.message = match files::save(&panel.file, settings) {
+                let saved = files::save(&panel.file, settings);
+                panel.seen = Seen::look(&panel.file);
+                panel.message = match saved {
                     Ok(()) => format!("saved {}", panel.file),
                     Err(error) => error.to_string(),
                 };
+            }
+        }
+        Action::FollowFile(follows) => {
+            panel.follows_file = follows;
+            panel.seen = Seen::look(&panel.file);
+        }
+        #[cfg(feature = "bake")]
+        Action::Bake => {
+            let coating = panel.prop.and_then(|prop| world.props.get(prop).ok()).map(|prop| (prop.coating, prop.seed));
+            if let Some((coating, seed)) = coating
+                && let Some(settings) = settings_of(coating, &world.assets)
+            {
+                let age = world.films.iter().filter(|(by, ..)| Some(by.0) == panel.prop).map(|(_, c, ..)| c.age());
+                let age = age.fold(0.0, f64::max);
+                panel.message = world.bake.begin(&panel.model, coating, seed.map_or(0, |seed| seed.0), settings, age);
             }
         }
         Action::Heat(map) => {

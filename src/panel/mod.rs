@@ -2,7 +2,7 @@
 //!
 //! | place | contents |
 //! |---|---|
-//! | left | every setting of the chosen prop by the paper's stages, presets, files |
+//! | left | every setting of the chosen prop by the paper's stages, presets, files, and baking (feature `bake`) |
 //! | right | props, heat map and gizmos, brush, figures over age, times of stages, saved state |
 //! | bottom | clock: run, step, speed, and a bar that goes to any age |
 //!
@@ -11,11 +11,16 @@
 
 mod action;
 mod apply;
+#[cfg(feature = "bake")]
+mod bake_group;
+#[cfg(feature = "bake")]
+mod bake_job;
 mod bar;
 mod brush_group;
 mod cell;
 mod figures;
 mod files;
+mod followed;
 mod legend;
 mod past;
 mod plot;
@@ -76,7 +81,9 @@ impl Plugin for CoatingPanelPlugin {
         if app.is_plugin_added::<GizmoPlugin>() && !app.is_plugin_added::<CoatingGizmosPlugin>() {
             app.add_plugins(CoatingGizmosPlugin);
         }
-        app.add_systems(PreUpdate, past::keep_past.run_if(state::is_open))
+        #[cfg(feature = "bake")]
+        app.init_resource::<bake_job::BakeJob>().add_systems(PreUpdate, bake_job::finish_baking);
+        app.add_systems(PreUpdate, (past::keep_past, followed::follow_file).run_if(state::is_open))
             .add_systems(PostUpdate, statistics::record.run_if(state::is_open))
             .add_systems(EguiPrimaryContextPass, show_panel.run_if(state::is_open));
     }
@@ -97,6 +104,9 @@ fn show_panel(mut contexts: EguiContexts, mut panel: ResMut<CoatingPanel>, mut w
     let context = contexts.ctx_mut()?.clone();
     let view = world.view(&mut panel);
     let mut actions = Vec::new();
+    if std::mem::take(&mut panel.file_has_changed) {
+        actions.push(action::Action::LoadFile);
+    }
     let area = UiBuilder::new().layer_id(LayerId::background()).max_rect(context.viewport_rect());
     let mut root = Ui::new(context, "coating panel".into(), area);
     make_small(&mut root);

@@ -2,6 +2,8 @@
 
 use bevy_egui::egui::{Button, CollapsingHeader, ScrollArea, TextEdit, Ui};
 
+#[cfg(feature = "bake")]
+use super::bake_group;
 use super::{
     action::Action,
     cell::{ROW, cell, text},
@@ -73,6 +75,8 @@ pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: 
                 }
             });
         }
+        #[cfg(feature = "bake")]
+        bake_group::show(ui, view, panel, actions);
     });
 }
 
@@ -108,7 +112,7 @@ fn presets(ui: &mut Ui, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
 
 fn files(ui: &mut Ui, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
-        let file = cell(ui, 216.0, |ui| ui.add(TextEdit::singleline(&mut panel.file).desired_width(208.0)));
+        let file = cell(ui, 150.0, |ui| ui.add(TextEdit::singleline(&mut panel.file).desired_width(142.0)));
         panel.places.insert(PanelWidget::File, file.rect);
         for (name, widget, action) in
             [("Load", PanelWidget::LoadFile, Action::LoadFile), ("Save", PanelWidget::SaveFile, Action::SaveFile)]
@@ -118,6 +122,12 @@ fn files(ui: &mut Ui, panel: &mut CoatingPanel, actions: &mut Vec<Action>) {
             if button.clicked() {
                 actions.push(action);
             }
+        }
+        let mut follows = panel.follows_file;
+        let follow = ui.checkbox(&mut follows, "follow");
+        panel.places.insert(PanelWidget::FollowFile, follow.rect);
+        if follow.on_hover_text("loads the file again whenever it changes on the disk").changed() {
+            actions.push(Action::FollowFile(follows));
         }
     });
     ui.horizontal(|ui| {

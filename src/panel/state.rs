@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bevy::ecs::{entity::Entity, resource::Resource, system::Res};
 use bevy_egui::egui::Rect;
 
-use super::widget::PanelWidget;
+use super::{followed::Seen, widget::PanelWidget};
 use crate::settings::{CoatingSettings, Preset};
 
 /// Default of [`CoatingPanel::keyframe_bytes`]: 4 MiB.
@@ -39,10 +39,21 @@ pub struct CoatingPanel {
     /// Path of the settings file that is loaded and saved, from the program's working folder. Default
     /// `paint.coating.ron`.
     pub file: String,
+    /// Whether the file is loaded again whenever it changes on the disk, for the props on which changes act. Default
+    /// false.
+    pub follows_file: bool,
     /// Memory for the past of each film, in bytes: while the panel is open it gives a
     /// [`CoatingHistory`](crate::CoatingHistory) of so much to every coating without one, so that films can go back. It
     /// stays when the panel is closed. Default 4 MiB; at 0 the panel gives none.
     pub keyframe_bytes: usize,
+    /// Path of the model that is baked, or a test piece like `plate:3012`: see [`Input`](crate::bake::Input). Default
+    /// empty.
+    #[cfg(feature = "bake")]
+    pub model: String,
+    /// File at which the panel has looked last.
+    pub(super) seen: Option<Seen>,
+    /// Whether the file has changed and is to be loaded.
+    pub(super) file_has_changed: bool,
     /// Last message: what was loaded or saved, or why that failed.
     pub(super) message: String,
     /// Settings to which resetting goes back: those that were loaded last, or of the
@@ -63,7 +74,12 @@ impl Default for CoatingPanel {
             prop: None,
             all_props: false,
             file: "paint.coating.ron".to_owned(),
+            follows_file: false,
             keyframe_bytes: KEYFRAME_BYTES,
+            #[cfg(feature = "bake")]
+            model: String::new(),
+            seen: None,
+            file_has_changed: false,
             message: String::new(),
             base: CoatingSettings::default(),
             base_name: Preset::Default.name().to_owned(),

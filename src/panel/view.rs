@@ -14,10 +14,14 @@ use bevy::{
     gizmos::config::GizmoConfigStore,
 };
 
+#[cfg(feature = "bake")]
+use super::bake_job::BakeJob;
 use super::{
     state::CoatingPanel,
     statistics::{Sample, Statistics},
 };
+#[cfg(feature = "bake")]
+use crate::api::seed::CoatingSeed;
 use crate::{
     api::{
         clock::CoatingClock,
@@ -26,12 +30,14 @@ use crate::{
         heat_map_view::HeatMapView,
         links::CoatedBy,
         snapshot::CoatingSnapshot,
+        summary::FilmSummary,
     },
     film::FilmMesh,
     gizmos::CoatingGizmos,
     pointing::CoatingBrush,
     settings::CoatingSettings,
     sim::FilmClock,
+    survey::{FilmShares, Ratings},
     timeline::FilmHistory,
 };
 
@@ -53,6 +59,8 @@ pub(super) struct Prop {
     pub name: Option<&'static Name>,
     pub heat: Option<&'static HeatMapView>,
     pub snapshot: Option<&'static CoatingSnapshot>,
+    #[cfg(feature = "bake")]
+    pub seed: Option<&'static CoatingSeed>,
 }
 
 /// Everything in the world that the panel reads and writes.
@@ -66,6 +74,9 @@ pub(super) struct PanelWorld<'w, 's> {
     pub gizmos: Option<ResMut<'w, GizmoConfigStore>>,
     pub brush: Option<ResMut<'w, CoatingBrush>>,
     pub assets: Res<'w, Assets<CoatingSettings>>,
+    #[cfg(feature = "bake")]
+    pub bake: ResMut<'w, BakeJob>,
+    summaries: Query<'w, 's, (&'static CoatedBy, &'static FilmSummary)>,
     diagnostics: Option<Res<'w, DiagnosticsStore>>,
     statistics: Res<'w, Statistics>,
 }
@@ -106,6 +117,11 @@ pub(super) struct View {
     pub gizmos: Option<bool>,
     /// Brush in the hand; `None` where nothing points at films.
     pub brush: Option<CoatingBrush>,
+    /// Shares by area of all films of the prop, with their ratings.
+    pub rated: Option<(FilmShares, Ratings)>,
+    /// Share of baking that is done, while a model is baked.
+    #[cfg(feature = "bake")]
+    pub baked: Option<f32>,
     /// Figures of the prop, by age.
     pub samples: Arc<Vec<Sample>>,
 }
@@ -144,6 +160,9 @@ impl PanelWorld<'_, '_> {
             times: STAGES.map(|(name, path)| (name, self.time(&path))),
             gizmos: self.gizmos.as_ref().and_then(|store| Some(store.get_config::<CoatingGizmos>()?.0.enabled)),
             brush: self.brush.as_ref().map(|brush| CoatingBrush::clone(brush)),
+            rated: self.rated(chosen),
+            #[cfg(feature = "bake")]
+            baked: self.bake.done(),
             samples: chosen.map(|chosen| self.statistics.of(chosen)).unwrap_or_default(),
         }
     }
@@ -157,6 +176,13 @@ impl PanelWorld<'_, '_> {
         }
         let name = name.map_or_else(|| entity.to_string(), |name| name.as_str().to_owned());
         PropLine { entity, name, age, triangles }
+    }
+
+    /// Returns the shares and the ratings of all films of a prop together.
+    fn rated(&self, prop: Option<Entity>) -> Option<(FilmShares, Ratings)> {
+        let own = self.summaries.iter().filter(|(coated_by, _)| Some(coated_by.0) == prop);
+        let shares = own.map(|(_, summary)| summary.shares).reduce(|all, film| all.merged(&film))?;
+        Some((shares, Ratings::from(&shares)))
     }
 
     fn time(&self, path: &DiagnosticPath) -> Option<f64> {

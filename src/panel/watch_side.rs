@@ -12,7 +12,7 @@ use super::{
     view::{PropLine, View},
     widget::PanelWidget,
 };
-use crate::heat::HeatMap;
+use crate::{heat::HeatMap, survey::Ratings};
 
 /// Height of the list of props, in points.
 const PROPS: f32 = 92.0;
@@ -29,7 +29,10 @@ pub(super) fn show(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: 
     maps(ui, view, panel, actions);
     brush_group::show(ui, view, panel, actions);
     ui.separator();
-    ui.heading("Over age");
+    ui.horizontal(|ui| {
+        ui.heading("Over age");
+        ratings(ui, view);
+    });
     for plot in &PLOTS {
         plot.show(ui, &view.samples, view.age, bar::last_age(view));
     }
@@ -98,6 +101,19 @@ fn maps(ui: &mut Ui, view: &View, panel: &mut CoatingPanel, actions: &mut Vec<Ac
     if gizmos.on_hover_text("draws `CoatingGizmos` on all films").changed() {
         actions.push(Action::Gizmos(on));
     }
+}
+
+/// Adds the ratings of the chosen prop, with their meaning where the pointer rests.
+fn ratings(ui: &mut Ui, view: &View) {
+    let Some((shares, Ratings { rust, astm, flaking, cracking })) = &view.rated else { return };
+    let short = format!("{rust}  {astm}  fl {}  cr {}", flaking.quantity(), cracking.quantity());
+    let label = text(ui, ui.available_width(), RichText::new(short).monospace().small());
+    label.on_hover_ui(|ui| {
+        let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+        ui.label(format!("{rust} (ISO 4628-3), {astm} (ASTM): rusted on {}", percent(shares.rusted)));
+        ui.label(format!("{flaking} (ISO 4628-5): gone from {}", percent(shares.gone)));
+        ui.label(format!("{cracking} (ISO 4628-4)"));
+    });
 }
 
 fn times(ui: &mut Ui, view: &View) {

@@ -29,6 +29,17 @@ pub enum PanelWidget {
     LoadFile,
     /// Button that saves the file.
     SaveFile,
+    /// Box that lets the file be loaded again when it changes.
+    FollowFile,
+    /// Title of the group with which models are baked.
+    #[cfg(feature = "bake")]
+    BakeGroup,
+    /// Path of the model that is baked.
+    #[cfg(feature = "bake")]
+    Model,
+    /// Button that bakes the model.
+    #[cfg(feature = "bake")]
+    Bake,
     /// Box that lets changes of settings act on all props.
     AllProps,
     /// Line of a prop.

@@ -72,10 +72,16 @@ pub(crate) fn cast(
     index.looked_at = 0;
     let come = films.iter_mut().any(|(_, shelter, ..)| shelter.is_added());
     index.stale |= come || gone.read().count() > 0;
-    let falling: Vec<Vec3> = falls(&weather.environment(*gravity, &GlobalTransform::IDENTITY))
-        .into_iter()
-        .filter(|&fall| fall != Vec3::ZERO)
-        .collect();
+    let own = films.iter().filter(|(_, shelter, ..)| shelter.choice == Shelter::Scene);
+    let own = own.filter_map(|(.., pace, _, _, _)| pace.weather);
+    let mut falling: Vec<Vec3> = Vec::new();
+    for weather in std::iter::once(*weather).chain(own) {
+        for fall in falls(&weather.environment(*gravity, &GlobalTransform::IDENTITY)) {
+            if fall != Vec3::ZERO && !falling.contains(&fall) {
+                falling.push(fall);
+            }
+        }
+    }
     if falling.is_empty() {
         // Until there is rain or sun again nothing is followed.
         index.stale = true;
@@ -105,7 +111,7 @@ pub(crate) fn cast(
             }
             continue;
         }
-        let environment = weather.environment(*gravity, transform);
+        let environment = pace.weather.unwrap_or(*weather).environment(*gravity, transform);
         let seen = Seen { place: transform.affine(), falls: falls(&environment) };
         if seen.falls == [Vec3::ZERO; 2] {
             (shelter.under_way, shelter.overdue, shelter.settled, shelter.restless) = (None, false, false, 0);
@@ -137,7 +143,7 @@ pub(crate) fn cast(
     waiting.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
     for &(_, film) in waiting.iter().take(most.min(MOST_BEGUN)) {
         let Ok((_, mut shelter, _, mesh, pace, source, coated_by, transform)) = films.get_mut(film) else { continue };
-        let environment = weather.environment(*gravity, transform);
+        let environment = pace.weather.unwrap_or(*weather).environment(*gravity, transform);
         let Some(order) = scene.order(&environment, source.place(transform), coated_by.0, &source.slots) else {
             continue;
         };

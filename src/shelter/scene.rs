@@ -32,7 +32,7 @@ use crate::{
         error::CoatingFault,
         links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmSlot},
         shelter::{RainShelter, Shelter},
-        weather::CoatingWeather,
+        weather::{CoatingWeather, PropWeather},
     },
     mesh_reader::shape_of,
     stain::{Environment, exposure::TriangleTree},
@@ -131,6 +131,7 @@ fn mesh_of(mesh: &Mesh3d, slot: Option<&FilmSlot>) -> AssetId<Mesh> {
 /// Finds the meshes that shelter props, while there is rain or sun, and follows their movements.
 pub(crate) fn survey(
     weather: Res<CoatingWeather>,
+    own_weather: Query<&PropWeather>,
     mut scene: ResMut<ShelterScene>,
     mut edited: MessageReader<AssetEvent<Mesh>>,
     mut changes: SceneChanges,
@@ -157,7 +158,8 @@ pub(crate) fn survey(
         past.is_some_and(|past| past.reaches_anything())
     };
     let mut begun = awaiting.iter().map(|awaiting| awaiting.root).chain(outdated.iter().map(|coated_by| coated_by.0));
-    if !weather.reaches_anything() && !begun.any(has_past) {
+    let has_own = || own_weather.iter().any(|weather| weather.0.reaches_anything());
+    if !weather.reaches_anything() && !begun.any(has_past) && !has_own() {
         scene.surveyed = false;
         return;
     }

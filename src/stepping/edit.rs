@@ -12,13 +12,13 @@ use bevy::{
     transform::components::GlobalTransform,
 };
 
-use super::report::FilmInWorld;
+use super::report::{FilmInWorld, Tellers};
 use crate::{
     api::{
         debris::FallenPieces,
         film_pace::FilmPace,
         links::{CoatedBy, FilmSource},
-        messages::{FilmRepainted, FirstCrack, PieceFallen},
+        messages::FilmRepainted,
     },
     appearance::DisplayChanges,
     deform::FilmConstraints,
@@ -97,8 +97,7 @@ fn edit_film(
     )>,
     journeys: Query<&FilmJourney>,
     mut commands: Commands,
-    mut cracks: MessageWriter<FirstCrack>,
-    mut pieces: MessageWriter<PieceFallen>,
+    mut tellers: Tellers,
     mut repainted: MessageWriter<FilmRepainted>,
 ) {
     let Ok((film, (mut pace, mut display, source, coated_by, transform), (history, mut fallen))) =
@@ -124,7 +123,7 @@ fn edit_film(
             Ok(Touched { changes, renewed }) => {
                 if renewed {
                     display.bypass_change_detection().restart();
-                    pace.cracked = forces.torn_edges > 0;
+                    pace.know(&forces);
                     repainted.write(FilmRepainted::of(entity, coated_by.0, &mesh, &forces));
                 }
                 Some(changes)
@@ -149,6 +148,6 @@ fn edit_film(
         commands.entity(entity).try_remove::<FilmJourney>();
     }
     let film = FilmInWorld { entity, mesh: &mesh, clock, source, transform };
-    film.tell(&mut pace.cracked, &changes, fallen.as_deref_mut(), &mut cracks, &mut pieces);
+    film.tell(pace, &changes, fallen.as_deref_mut(), &mut tellers);
     display.bypass_change_detection().record(&changes, &stains);
 }

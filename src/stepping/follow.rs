@@ -1,4 +1,4 @@
-//! Hands the pace of each coating to its films before the steps of a frame, so that a pause acts at once.
+//! Hands the pace and the weather of each coating to its films before the steps of a frame, so that a pause acts at once.
 
 use bevy::{
     ecs::{
@@ -9,23 +9,24 @@ use bevy::{
     log::warn,
 };
 
-use crate::api::{coating::Coating, film_pace::FilmPace, links::CoatedBy};
+use crate::api::{coating::Coating, film_pace::FilmPace, links::CoatedBy, weather::PropWeather};
 
-/// Hands rate, pause and quality of each coating to its films. A rate out of range is told once.
+/// Hands rate, pause, quality and weather of each coating to its films. A rate out of range is told once.
 pub(crate) fn follow_coatings(
-    coatings: Query<&Coating>,
+    coatings: Query<(&Coating, Option<&PropWeather>)>,
     mut films: Query<(&CoatedBy, &mut FilmPace)>,
     mut told: Local<Told>,
 ) {
     for (&CoatedBy(root), mut pace) in &mut films {
-        let Ok(coating) = coatings.get(root) else { continue };
+        let Ok((coating, weather)) = coatings.get(root) else { continue };
+        pace.bypass_change_detection().weather = weather.map(|weather| weather.0);
         if let Err(fault) = pace.bypass_change_detection().follow(coating)
             && told.is_news(root)
         {
             warn!("coating {root} keeps the rate that it had: {fault}");
         }
     }
-    told.retain(|root| coatings.get(root).is_ok_and(|coating| coating.checked_rate().is_err()));
+    told.retain(|root| coatings.get(root).is_ok_and(|(coating, _)| coating.checked_rate().is_err()));
 }
 
 /// Coatings of which it was told that they are out of range, and still are.

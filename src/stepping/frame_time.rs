@@ -85,7 +85,7 @@ mod tests {
     impl Films {
         fn new(speeds: &[f64]) -> Self {
             let settings = Arc::new(CoatingSettings::default());
-            let pace = |&rate: &f64| FilmPace { rate, ..FilmPace::new(settings.clone(), false) };
+            let pace = |&rate: &f64| FilmPace { rate, ..FilmPace::new(settings.clone()) };
             Self { paces: speeds.iter().map(pace).collect(), steps: vec![0; speeds.len()] }
         }
 

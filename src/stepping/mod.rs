@@ -17,7 +17,7 @@ mod systems;
 mod touch;
 
 pub(crate) use budget::{StepCost, bounds};
-pub(crate) use checks::{check_clock, check_weather};
+pub(crate) use checks::{check_clock, check_weather, check_weather_of_props};
 pub use edit::FilmEdit;
 pub(crate) use follow::follow_coatings;
 pub(crate) use reached::ReachedPace;

@@ -5,7 +5,7 @@ use bevy::{
         change_detection::DetectChangesMut,
         entity::Entity,
         message::MessageWriter,
-        system::{Query, ResMut},
+        system::{Query, ResMut, SystemParam},
     },
     math::Vec3,
     transform::components::GlobalTransform,
@@ -17,7 +17,7 @@ use crate::{
         diagnostics::CoatingTimings,
         film_pace::FilmPace,
         links::FilmSource,
-        messages::{FirstCrack, PieceFallen},
+        messages::{FirstCrack, FirstSeparation, PieceFallen},
     },
     appearance::DisplayChanges,
     film::{FaceId, FilmChanges, FilmMesh},
@@ -25,7 +25,16 @@ use crate::{
     stain::StainFields,
 };
 
-/// Reports the first crack and fallen pieces of the due films, and adds up what display has to follow.
+/// Writers of the messages about what happens in a step.
+#[derive(SystemParam)]
+pub(super) struct Tellers<'w> {
+    separations: MessageWriter<'w, FirstSeparation>,
+    cracks: MessageWriter<'w, FirstCrack>,
+    pieces: MessageWriter<'w, PieceFallen>,
+}
+
+/// Reports what happens for the first time and the fallen pieces of the due films, and adds up what display has to
+/// follow.
 pub(super) fn report(
     mut films: Query<(
         Entity,
@@ -39,8 +48,7 @@ pub(super) fn report(
         &mut DisplayChanges,
         Option<&mut FallenPieces>,
     )>,
-    mut cracks: MessageWriter<FirstCrack>,
-    mut pieces: MessageWriter<PieceFallen>,
+    mut tellers: Tellers,
     mut timings: ResMut<CoatingTimings>,
 ) {
     timings.measure(Stage::Other, || {
@@ -49,7 +57,7 @@ pub(super) fn report(
                 continue;
             }
             let film = FilmInWorld { entity, mesh, clock, source, transform };
-            film.tell(&mut pace.cracked, changes, fallen.as_deref_mut(), &mut cracks, &mut pieces);
+            film.tell(pace.bypass_change_detection(), changes, fallen.as_deref_mut(), &mut tellers);
             display.bypass_change_detection().record(changes, stains);
         }
     });
@@ -65,21 +73,26 @@ pub(super) struct FilmInWorld<'a> {
 }
 
 impl FilmInWorld<'_> {
-    /// Tells of the first crack, unless the film has `cracked` before, and of the pieces that fell.
+    /// Tells of the first vertex that let go and of the first crack, unless the film had any before, and of the pieces
+    /// that fell.
     pub fn tell(
         &self,
-        cracked: &mut bool,
+        pace: &mut FilmPace,
         changes: &FilmChanges,
         fallen: Option<&mut FallenPieces>,
-        cracks: &mut MessageWriter<FirstCrack>,
-        pieces: &mut MessageWriter<PieceFallen>,
+        tellers: &mut Tellers,
     ) {
         let Self { entity, mesh, clock, source, .. } = *self;
-        if let (false, Some(&edge)) = (*cracked, changes.torn.first()) {
-            *cracked = true;
+        if let (false, Some(v)) = (pace.separated, changes.separated.first()) {
+            pace.separated = true;
+            let position = self.point(mesh.geometry.positions[v.index()]);
+            tellers.separations.write(FirstSeparation { entity, age: clock.age(), position });
+        }
+        if let (false, Some(&edge)) = (pace.cracked, changes.torn.first()) {
+            pace.cracked = true;
             let ends = [mesh.topology.origin(edge), mesh.topology.target(edge)];
             let [a, b] = ends.map(|v| mesh.geometry.positions[v.index()]);
-            cracks.write(FirstCrack { entity, age: clock.age(), position: self.point((a + b) / 2.0) });
+            tellers.cracks.write(FirstCrack { entity, age: clock.age(), position: self.point((a + b) / 2.0) });
         }
         if let Some(fallen) = fallen.filter(|_| !changes.debris.is_empty()) {
             fallen.faces.extend_from_slice(&changes.removed);
@@ -87,7 +100,7 @@ impl FilmInWorld<'_> {
         }
         let is_hidden = |face: FaceId| source.hidden.get(face.index()).is_some_and(|&hidden| hidden);
         for debris in changes.debris.iter().filter(|debris| !is_hidden(debris.face)) {
-            pieces.write(PieceFallen {
+            tellers.pieces.write(PieceFallen {
                 entity,
                 position: self.point(debris.position),
                 // Normals turn with the film, which has the world scale applied already.

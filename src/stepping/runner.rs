@@ -112,14 +112,15 @@ fn plan(world: &mut World, films: &mut Films, max_steps: u64, seconds: f64) -> (
     let target = clock.checked_target();
     for (mut pace, clock_of_film, transform, mut shelter, mut stains) in films.iter_mut(world) {
         let pace = pace.bypass_change_detection();
-        pace.environment = weather.environment(gravity, transform);
+        pace.environment = pace.weather.unwrap_or(weather).environment(gravity, transform);
         // A new exposure changes no stain yet, so display need not notice it.
         shelter.bypass_change_detection().finish(stains.bypass_change_detection());
         pace.held = shelter.holds_back(&pace.environment);
         let steps_per_age = pace.rate * f64::from(clock_of_film.steps_per_age);
         let left = target.map_or(u64::MAX, |age| clock_of_film.step_at(age).saturating_sub(clock_of_film.steps));
         pace.account.begin(steps_per_age, left, wanted > 0.0, !pace.paused && !pace.travels);
-        pace.account.request(requested);
+        let of_film = std::mem::take(&mut pace.requested_steps);
+        pace.account.request(requested.saturating_add(of_film));
     }
     let age = shorten_age(wanted, max_steps, films.iter(world).map(|(pace, ..)| pace));
     let mut any = false;

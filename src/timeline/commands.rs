@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy::{
     ecs::{
+        change_detection::DetectChangesMut,
         component::Component,
         entity::Entity,
         query::Without,
@@ -16,7 +17,8 @@ use bevy::{
 use super::{journey::FilmWish, path::written_path, save::below};
 use crate::{
     api::{
-        links::{AwaitingFilm, CoatedBy, FilmSource},
+        film_pace::FilmPace,
+        links::{AwaitingFilm, CoatedBy, CoatingFilms, FilmSource},
         messages::RestoreFailed,
         snapshot::CoatingSnapshot,
     },
@@ -47,6 +49,10 @@ pub trait CoatingCommands {
     /// [`FilmClock::seek`](crate::sim::FilmClock::seek). Films that are still being built follow when they are ready.
     fn age_to(&mut self, age: f64) -> &mut Self;
 
+    /// Requests `steps` further steps from all films of the coating that are ready, also while the clock is paused: see
+    /// [`FilmPace::request_steps`](crate::FilmPace::request_steps).
+    fn request_steps(&mut self, steps: u64) -> &mut Self;
+
     /// Saves all films of the coating into a [`CoatingSnapshot`] beside it. If they cannot be saved, a warning says
     /// why, and a snapshot that is there stays.
     fn save_films(&mut self) -> &mut Self;
@@ -60,6 +66,10 @@ pub trait CoatingCommands {
 impl CoatingCommands for EntityCommands<'_> {
     fn age_to(&mut self, age: f64) -> &mut Self {
         self.try_insert(AgeWish(age))
+    }
+
+    fn request_steps(&mut self, steps: u64) -> &mut Self {
+        self.queue_silenced(RequestSteps(steps))
     }
 
     fn save_films(&mut self) -> &mut Self {
@@ -96,6 +106,23 @@ pub(crate) fn hand_out_ages(
         if any && !waits {
             commands.entity(root).try_remove::<AgeWish>();
         }
+    }
+}
+
+struct RequestSteps(u64);
+
+impl EntityCommand for RequestSteps {
+    type Out = ();
+
+    fn apply(self, mut entity: EntityWorldMut) {
+        let films = entity.get::<CoatingFilms>().map(|own| own.films().to_vec()).unwrap_or_default();
+        entity.world_scope(|world| {
+            for film in films {
+                if let Some(mut pace) = world.get_mut::<FilmPace>(film) {
+                    pace.bypass_change_detection().request_steps(self.0);
+                }
+            }
+        });
     }
 }
 

@@ -80,7 +80,7 @@ impl WholeFilmItem<'_, '_> {
     pub fn replace(&mut self, state: FilmState) {
         let FilmState { mesh, forces, constraints, stains, clock, changes, .. } = state;
         let goal = self.clock.goal;
-        self.pace.cracked = forces.torn_edges > 0;
+        self.pace.know(&forces);
         (*self.mesh, *self.forces, *self.constraints, *self.stains) = (mesh, forces, constraints, stains);
         (*self.clock, *self.changes) = (FilmClock { goal, ..clock }, changes);
     }

@@ -144,6 +144,7 @@ fn the_start_age_is_reached_in_the_background() {
     wait_for_films(&mut app, 1);
     assert_eq!(film_state(&app, plate).digest(), expected.digest());
     assert_eq!(messages::<FirstCrack>(&mut app).len(), 0, "it cracked before anyone looked");
+    assert_eq!(messages::<FirstSeparation>(&mut app).len(), 0, "nor did anyone see it let go");
     let ready = messages::<FilmReady>(&mut app);
     assert_eq!(ready.len(), 1);
     assert_eq!((ready[0].entity, ready[0].root, ready[0].triangles), (plate, plate, 288));
@@ -159,10 +160,12 @@ fn cracks_and_fallen_pieces_are_told_in_world_space() {
     let place = Transform::from_xyz(10.0, 0.0, 0.0).with_scale(Vec3::splat(3.0));
     let plate = app.world_mut().spawn((Mesh3d(mesh), place, quick_coating().with_seed(3))).id();
     wait_for_films(&mut app, 1);
+    let mut separations = Vec::new();
     let mut cracks = Vec::new();
     let mut pieces = Vec::new();
     for _ in 0..100 {
         take_steps(&mut app, 1);
+        separations.extend(messages::<FirstSeparation>(&mut app));
         cracks.extend(messages::<FirstCrack>(&mut app));
         pieces.extend(messages::<PieceFallen>(&mut app));
     }
@@ -170,6 +173,10 @@ fn cracks_and_fallen_pieces_are_told_in_world_space() {
     assert!(cracks[0].entity == plate && cracks[0].age > 0.0 && cracks[0].age < 1.0, "{cracks:?}");
     let on_plate = |p: Vec3| p.x > 9.0 && p.x < 14.0 && p.y > -1.0 && p.y < 4.0 && p.z > -0.01 && p.z < 1.5;
     assert!(on_plate(cracks[0].position), "{cracks:?}");
+    assert_eq!(separations.len(), 1);
+    let first = separations[0];
+    assert!(first.entity == plate && first.age > 0.0 && first.age <= cracks[0].age, "{first:?}");
+    assert!(on_plate(first.position) && first.position.z < 0.01, "it has hardly moved yet: {first:?}");
     let film = film_state(&app, plate);
     let gone = film.mesh.topology.face_count() - film.mesh.topology.live_faces().count();
     assert!(gone > 5, "{gone}");

@@ -399,3 +399,30 @@ fn stages_report_their_time() {
     }
     assert_eq!((value(diagnostics::FILMS), value(diagnostics::STEPPED)), (1.0, 1.0));
 }
+
+#[test]
+fn steps_are_requested_of_one_prop_alone() {
+    let mut app = app();
+    let [one, other, still] = [1, 2, 3].map(|seed| {
+        let coating = Coating { paused: seed == 3, ..quick_coating().with_seed(seed) };
+        spawn_plate(&mut app, 6, coating)
+    });
+    wait_for_films(&mut app, 3);
+    clock(&mut app).paused = true;
+    for prop in [one, still] {
+        app.world_mut().commands().entity(prop).request_steps(7);
+    }
+    for _ in 0..3 {
+        app.update();
+    }
+    assert_eq!([one, other, still].map(|film| steps(&app, film)), [7, 0, 0]);
+    app.world_mut().get_mut::<FilmPace>(other).expect("a film").request_steps(2);
+    for _ in 0..3 {
+        app.update();
+    }
+    assert_eq!([one, other, still].map(|film| steps(&app, film)), [7, 2, 0]);
+    // What is no prop, or has no films yet, is left alone.
+    let empty = app.world_mut().spawn_empty().id();
+    app.world_mut().commands().entity(empty).request_steps(7);
+    app.update();
+}

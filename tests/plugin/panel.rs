@@ -198,6 +198,26 @@ fn sliders_and_buttons_change_the_coating_and_nothing_else_does() {
     assert!(desk.world().resource::<CoatingPanel>().message().contains("none.coating.ron"), "it says why");
     assert_eq!(desk.settings_of(props[0]), CoatingSettings::from(Preset::Heavy));
 
+    // A file that is followed is loaded again when somebody writes it.
+    desk.world().resource_mut::<CoatingPanel>().file = file.to_str().expect("a path").to_owned();
+    desk.click(PanelWidget::FollowFile);
+    assert!(desk.world().resource::<CoatingPanel>().follows_file);
+    let text = std::fs::read_to_string(&file).expect("text");
+    let gentle = Preset::Gentle.ron();
+    assert_ne!(text, gentle);
+    let later = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
+    std::fs::write(&file, gentle).expect("it can be written");
+    let written = std::fs::File::options().append(true).open(&file).expect("a file");
+    written.set_modified(later).expect("a later time");
+    let is_gentle = |app: &mut App| {
+        let coating = app.world().get::<Coating>(props[0]).expect("a coating");
+        coating.settings == SettingsSource::from(Preset::Gentle)
+    };
+    update_until(&mut desk.studio.app, is_gentle);
+    desk.click(PanelWidget::FollowFile);
+    assert!(!desk.world().resource::<CoatingPanel>().follows_file);
+    desk.click(PanelWidget::Preset("heavy"));
+
     // Another prop.
     desk.click(PanelWidget::Prop(props[1]));
     assert_eq!(desk.prop(), props[1]);
@@ -328,6 +348,38 @@ fn the_panel_over_the_sign_can_be_looked_at() {
     println!("{differing} of 14400 pixels in the middle differ");
     assert!(differing > 1000, "{differing}");
     assert_eq!(desk.studio.broken_pipelines(), Vec::<String>::new());
+}
+
+#[test]
+fn a_model_is_baked_with_the_paint_of_the_prop() {
+    let Some(mut desk) = Desk::with_plates() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = folder.path().join("hydrant.glb");
+    std::fs::copy("assets/props/hydrant.glb", &model).expect("a model");
+    take_steps(&mut desk.studio.app, 20);
+    // The group lies at the end of all settings.
+    desk.world().resource_mut::<CoatingPanel>().model = model.to_str().expect("a path").to_owned();
+    let left = desk.place(PanelWidget::Left);
+    desk.send(egui::Event::PointerMoved(left.center()));
+    for _ in 0..12 {
+        let (unit, delta) = (egui::MouseWheelUnit::Point, egui::vec2(0.0, -4000.0));
+        let (phase, modifiers) = (egui::TouchPhase::Move, egui::Modifiers::NONE);
+        desk.send(egui::Event::MouseWheel { unit, delta, phase, modifiers });
+        std::thread::sleep(std::time::Duration::from_millis(30));
+    }
+    desk.click(PanelWidget::BakeGroup);
+    for _ in 0..30 {
+        let (unit, delta) = (egui::MouseWheelUnit::Point, egui::vec2(0.0, -4000.0));
+        let (phase, modifiers) = (egui::TouchPhase::Move, egui::Modifiers::NONE);
+        desk.send(egui::Event::MouseWheel { unit, delta, phase, modifiers });
+        std::thread::sleep(std::time::Duration::from_millis(30));
+    }
+    desk.click(PanelWidget::Bake);
+    let message = |app: &App| app.world().resource::<CoatingPanel>().message().to_owned();
+    update_until(&mut desk.studio.app, |app| message(app).starts_with("baked into"));
+    let aged = folder.path().join("hydrant_aged.glb");
+    let model = gltf::Gltf::open(&aged).expect("a model");
+    assert!(model.materials().count() > 1, "metal and primer have come with it");
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use bevy::{asset::RenderAssetUsages, math::Affine3A, prelude::*};
 use bevy_coating::{
+    FilmPace,
     prelude::*,
     stain::{Exposure, StainFields, exposure::exposure_of},
 };
@@ -36,6 +37,63 @@ fn a_roof_keeps_what_is_under_it_dry() {
     };
     assert_eq!(moisture(|x| x < 0.4), 0.0);
     assert!(moisture(|x| x > 0.6) > 0.1, "it does rain");
+}
+
+#[test]
+fn a_prop_has_weather_of_its_own() {
+    let mut app = app();
+    app.insert_resource(RAIN);
+    let dry = CoatingWeather::default();
+    let [outside, cellar] = [1, 2].map(|seed| spawn_lying(&mut app, 8, wet_coating().with_seed(seed)));
+    app.world_mut().entity_mut(cellar).insert(PropWeather(dry));
+    wait_for_films(&mut app, 2);
+    let wettest =
+        |app: &App, film: Entity| film_state(app, film).stains.film.moisture.iter().fold(0.0f32, |m, &w| m.max(w));
+    take_steps_held(&mut app, 20);
+    assert!(wettest(&app, outside) > 0.1, "it rains");
+    assert_eq!(wettest(&app, cellar), 0.0, "but not in the cellar");
+
+    // A rain machine in fair weather, with a roof over half of what it rains on.
+    app.insert_resource(dry);
+    app.world_mut().entity_mut(cellar).insert(PropWeather(RAIN));
+    spawn_roof(&mut app);
+    update_until(&mut app, |app| exposure(app, cellar).rain.contains(&0.0));
+    take_steps_held(&mut app, 20);
+    assert!(wettest(&app, cellar) > 0.1, "it rains now");
+    assert_eq!(rain_at(&app, cellar, 0.1), 0.0, "under the roof it is dry");
+    assert_eq!(rain_at(&app, cellar, 0.9), 1.0);
+
+    // Without it the prop shares the world's weather again, and values out of range are clamped.
+    app.world_mut().entity_mut(cellar).insert(PropWeather(CoatingWeather { rain: Vec3::NAN, ..dry }));
+    app.update();
+    assert_eq!(app.world().get::<FilmPace>(cellar).expect("a film").environment.rain, Vec3::ZERO);
+    app.world_mut().entity_mut(cellar).remove::<PropWeather>();
+    app.insert_resource(CoatingWeather { wind: Vec3::X, ..dry });
+    app.update();
+    let wind = [outside, cellar].map(|film| app.world().get::<FilmPace>(film).expect("a film").environment.wind);
+    assert_eq!(wind[0], wind[1]);
+    assert_ne!(wind[0], Vec3::ZERO);
+}
+
+#[test]
+fn a_prop_that_comes_late_has_lived_in_its_own_weather() {
+    let mut app = app();
+    app.insert_resource(RAIN);
+    app.insert_resource(CoatingClock { age_per_second: 1.0, ..default() });
+    for _ in 0..10 {
+        app.update();
+    }
+    app.world_mut().resource_mut::<CoatingClock>().paused = true;
+    let coating = || wet_coating().with_painted(0.0);
+    let [outside, cellar] = [1, 2].map(|seed| spawn_lying(&mut app, 8, coating().with_seed(seed)));
+    app.world_mut().entity_mut(cellar).insert(PropWeather(CoatingWeather::default()));
+    wait_for_films(&mut app, 2);
+    let wet = [outside, cellar].map(|film| {
+        let state = film_state(&app, film);
+        assert!(state.clock.age() > 0.3, "{}", state.clock.age());
+        state.stains.film.moisture.iter().fold(0.0f32, |m, &w| m.max(w))
+    });
+    assert!(wet[0] > 0.1 && wet[1] == 0.0, "{wet:?}");
 }
 
 #[test]
