@@ -355,7 +355,7 @@ fn a_model_is_baked_with_the_paint_of_the_prop() {
     let Some(mut desk) = Desk::with_plates() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let model = folder.path().join("hydrant.glb");
-    std::fs::copy("assets/props/hydrant.glb", &model).expect("a model");
+    std::fs::copy("assets/props/prop_firehydrant.glb", &model).expect("a model");
     take_steps(&mut desk.studio.app, 20);
     // The group lies at the end of all settings.
     desk.world().resource_mut::<CoatingPanel>().model = model.to_str().expect("a path").to_owned();

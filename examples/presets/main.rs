@@ -1,0 +1,40 @@
+//! The presets side by side: twelve ways in which paint grows old, on cans of one size.
+//!
+//! `cargo run --example presets` opens a window, in which number keys choose the view; without a display, or with
+//! `--headless`, it renders all cans and each real paint into PNG files; without a graphics adapter it ages the cans and
+//! writes them as models.
+
+#![allow(clippy::disallowed_methods, reason = "the scene is only looked at; its bits may differ between platforms")]
+
+mod bare;
+mod cans;
+mod cli;
+#[path = "../common_scene/mod.rs"]
+mod common_scene;
+#[path = "../stains/rounded_box.rs"]
+mod rounded_box;
+mod stage;
+
+use bevy::prelude::*;
+use clap::Parser;
+use cli::Options;
+use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
+
+fn main() -> AppExit {
+    let options = Options::parse();
+    let folder = options.scene.folder("presets");
+    if !graphics::adapter_exists() {
+        return common_scene::bare::run(&folder, bare::pieces(&options));
+    }
+    let mut app = App::new();
+    if options.scene.pictures() || !graphics::display_exists() {
+        headless::add(&mut app, &options.scene, folder, stage::shots(&options));
+    } else {
+        let size = options.scene.size.map_or(stage::SIZE, UVec2::from);
+        window::add(&mut app, "Presets", size, stage::views());
+    }
+    app.insert_resource(options);
+    let studio = StudioPlugin { sun: stage::sun_direction() };
+    app.add_plugins((paint::PaintPlugin, studio, stage::StagePlugin));
+    app.run()
+}
