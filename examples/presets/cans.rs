@@ -11,7 +11,7 @@ pub const HALF: Vec3 = Vec3::new(0.24, 0.3, 0.14);
 const ROUNDING: f32 = 0.025;
 /// From can to can.
 const COLUMN: f32 = 0.72;
-const ROW: f32 = 0.92;
+const ROW: f32 = 0.96;
 /// Number of cans in a row.
 pub const COLUMNS: usize = 6;
 

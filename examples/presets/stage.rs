@@ -7,7 +7,7 @@ use crate::common_scene::headless::Shot;
 use crate::common_scene::label::Pen;
 use crate::common_scene::paint::{Loading, Paint};
 use crate::common_scene::window::Views;
-use bevy::light::NotShadowCaster;
+use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::prelude::*;
 
 /// Of a picture of all cans, or the window.
@@ -48,8 +48,10 @@ fn build(
         reflectance: 0.3,
         ..default()
     });
+    // Shadows of cans on the wall would say nothing of their paint.
+    let shadowless = (NotShadowCaster, NotShadowReceiver);
     let behind = Transform::from_xyz(0.0, 0.0, -0.4);
-    commands.spawn((Mesh3d(meshes.add(Rectangle::new(40.0, 40.0))), MeshMaterial3d(wall), behind, NotShadowCaster));
+    commands.spawn((Mesh3d(meshes.add(Rectangle::new(40.0, 40.0))), MeshMaterial3d(wall), behind, shadowless));
     let mesh = meshes.add(cans::shape().mesh());
     let turn = Quat::from_rotation_y(TURN.to_radians());
     let pen = Pen::default();
@@ -72,7 +74,7 @@ fn build(
             ..default()
         });
         let sheet = meshes.add(Rectangle::new(LINE * label.aspect, LINE));
-        let below = Transform::from_translation(can.place - Vec3::Y * (HALF.y + LINE));
+        let below = Transform::from_translation(can.place - Vec3::Y * (HALF.y + 1.5 * LINE));
         commands.spawn((Mesh3d(sheet), MeshMaterial3d(ink), below, NotShadowCaster));
     }
     (loading.props, loading.loaded) = (1, 1);
@@ -88,7 +90,7 @@ fn all() -> Orbit {
 }
 
 fn one(can: &Can) -> Orbit {
-    orbit(can.place, 0.78)
+    orbit(can.place - Vec3::Y * 0.05, 0.92)
 }
 
 /// Names of the views, in the order of their keys: all cans, and the real paints one by one.
