@@ -1,5 +1,7 @@
 //! What the command lines of all scenes have.
 
+use super::camera::Orbit;
+use bevy::math::Vec3;
 use bevy_coating::{appearance::Detail, settings::CoatingSettings};
 use clap::Args;
 use std::path::PathBuf;
@@ -22,6 +24,12 @@ pub struct SceneArgs {
     /// Frames of the moving picture.
     #[arg(long, value_name = "NUMBER", default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=500))]
     pub frames: u32,
+    /// Where the camera stands, for one picture of each age from there (with --to).
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_place, requires = "to", allow_hyphen_values = true)]
+    from: Option<Vec3>,
+    /// What it looks at.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_place, requires = "from", allow_hyphen_values = true)]
+    to: Option<Vec3>,
     /// Another seed, other cracks.
     #[arg(long, default_value_t = 7)]
     pub seed: u64,
@@ -33,9 +41,19 @@ impl SceneArgs {
         self.output.clone().unwrap_or_else(|| PathBuf::from("output").join(example))
     }
 
+    /// The camera that the command line asks for, if it does.
+    pub fn camera(&self) -> Option<Orbit> {
+        let (from, to) = (self.from?, self.to?);
+        let back = from - to;
+        let distance = back.length().max(1e-3);
+        let yaw = back.x.atan2(back.z);
+        let pitch = (back.y / distance).clamp(-1.0, 1.0).asin();
+        Some(Orbit { centre: to, distance, yaw, pitch, field_of_view: 0.6 })
+    }
+
     /// Whether pictures are asked for, rather than a window.
     pub fn pictures(&self) -> bool {
-        self.headless || self.animate.is_some()
+        self.headless || self.animate.is_some() || self.from.is_some()
     }
 
     /// How finely paint is shown: at `level` at most. Pictures do not wait for levels that follow the distance: theirs
@@ -52,6 +70,14 @@ impl SceneArgs {
         }
         let last = self.frames - 1;
         (0..=last).map(|frame| f64::from(frame) / f64::from(last)).collect()
+    }
+}
+
+fn parse_place(text: &str) -> Result<Vec3, String> {
+    let numbers: Vec<f32> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
+    match numbers.as_slice() {
+        &[x, y, z] if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        _ => Err(format!("`{text}` is not a place such as 0.1,1.2,-0.5, in metres")),
     }
 }
 

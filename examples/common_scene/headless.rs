@@ -84,6 +84,10 @@ impl Session {
     fn new(args: &SceneArgs, folder: PathBuf, shots: Vec<Shot>) -> Self {
         let sized = |shot: Shot| Shot { size: args.size.map_or(shot.size, UVec2::from), ..shot };
         let mut shots: Vec<Shot> = shots.into_iter().map(sized).collect();
+        if let Some(orbit) = args.camera() {
+            shots.dedup_by_key(|shot| shot.age);
+            shots.iter_mut().for_each(|shot| shot.orbit = orbit);
+        }
         let animation = args.animate.clone().zip(shots.first().map(|shot| shot.size)).map(|(file, size)| {
             // The first view of each age.
             shots.dedup_by_key(|shot| shot.age);
