@@ -1,5 +1,5 @@
-//! Debris: flakes of paint fall as objects of the world. Those of the left drum flutter down by themselves; those of the
-//! right one are handed to another physics, here a few lines that let them bounce.
+//! Debris: flakes of paint fall as objects of the world. Those of the left drum flutter down by themselves; those of
+//! the right one are handed to another physics, here a few lines that let them bounce.
 //!
 //! `cargo run --example debris`. Left mouse button: shoot at the paint.
 

@@ -1,8 +1,8 @@
 //! The presets side by side: twelve ways in which paint grows old, on cans of one size.
 //!
 //! `cargo run --example presets` opens a window, in which number keys choose the view; without a display, or with
-//! `--headless`, it renders all cans and each real paint into PNG files; without a graphics adapter it ages the cans and
-//! writes them as models.
+//! `--headless`, it renders all cans and each real paint into PNG files; without a graphics adapter it ages the cans
+//! and writes them as models.
 
 #![allow(clippy::disallowed_methods, reason = "the scene is only looked at; its bits may differ between platforms")]
 

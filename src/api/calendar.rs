@@ -83,7 +83,7 @@ impl CoatingCalendar {
         self.date += age;
     }
 
-    /// Returns the environment of a film at `transform` whose prop has had one weather of its own since `date`, with the
+    /// Returns the environment of a film at `transform` whose prop has had a weather of its own since `date`, with the
     /// age that has passed.
     pub(crate) fn since_in(
         &self,

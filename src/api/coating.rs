@@ -1,13 +1,16 @@
 //! Defines [`Coating`], the component that makes the paint of an entity age.
 
 use bevy::{
-    asset::Handle,
     ecs::{component::Component, reflect::ReflectComponent},
     reflect::prelude::*,
 };
 
 use super::{
-    masks::CoatingMasks, outline::PropOutline, paint::Paint, shelter::Shelter, stain_display::StainDisplay,
+    masks::CoatingMasks,
+    outline::PropOutline,
+    paint::{Paint, SettingsSource},
+    shelter::Shelter,
+    stain_display::StainDisplay,
     weather::CoatingWeather,
 };
 use crate::{
@@ -17,7 +20,7 @@ use crate::{
     },
     deform::SolverQuality,
     remesh::FilmResolution,
-    settings::{CoatingSettings, Preset, SettingsError},
+    settings::{Preset, SettingsError},
     sim::DEFAULT_STEPS_PER_AGE,
 };
 
@@ -59,7 +62,7 @@ use crate::{
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default, Debug, Clone, PartialEq)]
 pub struct Coating {
-    /// Settings of the ageing. Default: [`CoatingSettings::default`].
+    /// Settings of the ageing. Default: [`CoatingSettings::default`](crate::settings::CoatingSettings::default).
     pub settings: SettingsSource,
     /// Seed of all random choices: remeshing, adhesion, weak edges and patterns of stains. Props with the same seed are
     /// twins. `None`, the default: it is drawn from the place in the world where the prop is first coated, and kept as
@@ -143,8 +146,8 @@ impl Default for Coating {
 }
 
 impl Coating {
-    /// Returns a coating with this paint: a [`Preset`] with its [masks](Preset::masks), [`CoatingSettings`], or the
-    /// handle of a settings asset.
+    /// Returns a coating with this paint: a [`Preset`] with its [masks](Preset::masks),
+    /// [`CoatingSettings`](crate::settings::CoatingSettings), or the handle of a settings asset.
     ///
     /// ```
     /// use bevy_coating::prelude::*;
@@ -159,8 +162,8 @@ impl Coating {
         Self { settings, masks, ..Self::default() }
     }
 
-    /// Returns a coating with the settings and masks of the [preset](Preset) called `name`, for names that users type. In code
-    /// [`Coating::new(Preset::Heavy)`](Self::new) is simpler, as it cannot fail.
+    /// Returns a coating with the settings and masks of the [preset](Preset) called `name`, for names that users type.
+    /// In code [`Coating::new(Preset::Heavy)`](Self::new) is simpler, as it cannot fail.
     ///
     /// # Errors
     /// [`SettingsError`] with a list of the presets, if none is called `name`.
@@ -387,59 +390,5 @@ impl FilmKey {
 impl PartialEq for FilmKey {
     fn eq(&self, other: &Self) -> bool {
         self.bits() == other.bits()
-    }
-}
-
-/// Source of a coating's settings.
-///
-/// [`CoatingSettings`], a [`Preset`] and a [`Handle`] convert into it.
-///
-/// ```
-/// use bevy::prelude::*;
-/// use bevy_coating::prelude::*;
-///
-/// fn paint(mut commands: Commands, assets: Res<AssetServer>, mut meshes: ResMut<Assets<Mesh>>) {
-///     let settings: Handle<CoatingSettings> = assets.load("hull.coating.ron");
-///     let source = SettingsSource::from(settings);
-///     commands.spawn((Mesh3d(meshes.add(Sphere::new(1.0))), Coating::new(source)));
-/// }
-///
-/// # let mut app = App::new();
-/// # app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::mesh::MeshPlugin, TransformPlugin));
-/// # app.add_plugins(CoatingWeatheringPlugin::default());
-/// app.add_systems(Startup, paint);
-/// app.update();
-/// ```
-#[derive(Clone, Debug, PartialEq, Reflect)]
-#[reflect(Default, Debug, Clone, PartialEq)]
-pub enum SettingsSource {
-    /// Settings that are stored in the component.
-    Inline(CoatingSettings),
-    /// Settings asset, for example of a `.coating.ron` file. The film is built once it has loaded, and takes over later
-    /// changes of the asset.
-    Asset(Handle<CoatingSettings>),
-}
-
-impl Default for SettingsSource {
-    fn default() -> Self {
-        Self::Inline(CoatingSettings::default())
-    }
-}
-
-impl From<CoatingSettings> for SettingsSource {
-    fn from(settings: CoatingSettings) -> Self {
-        Self::Inline(settings)
-    }
-}
-
-impl From<Preset> for SettingsSource {
-    fn from(preset: Preset) -> Self {
-        Self::Inline(preset.into())
-    }
-}
-
-impl From<Handle<CoatingSettings>> for SettingsSource {
-    fn from(handle: Handle<CoatingSettings>) -> Self {
-        Self::Asset(handle)
     }
 }

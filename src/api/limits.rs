@@ -2,10 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::{
-    coating::{Coating, SettingsSource},
-    error::CoatingFault,
-};
+use super::{coating::Coating, error::CoatingFault, paint::SettingsSource};
 
 /// Greatest [`Coating::rate`].
 pub const MAX_RATE: f64 = 1000.0;

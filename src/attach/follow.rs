@@ -15,11 +15,7 @@ use bevy::{
 };
 
 use crate::{
-    api::{
-        coating::{Coating, SettingsSource},
-        film_pace::FilmPace,
-        links::CoatedBy,
-    },
+    api::{coating::Coating, film_pace::FilmPace, links::CoatedBy, paint::SettingsSource},
     settings::CoatingSettings,
     shelter::FilmShelter,
 };

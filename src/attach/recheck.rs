@@ -15,8 +15,9 @@ use bevy::{
 use super::{build::FilmBuild, suspects::suspects_of};
 use crate::{
     api::{
-        coating::{Coating, SettingsSource},
+        coating::Coating,
         links::{AwaitingFilm, FilmRefused, FilmSlot, LeftAlone, Suspects},
+        paint::SettingsSource,
     },
     settings::CoatingSettings,
 };

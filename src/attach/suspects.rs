@@ -9,8 +9,9 @@ use bevy::{
 
 use crate::{
     api::{
-        coating::{Coating, SettingsSource},
+        coating::Coating,
         links::{AwaitingFilm, CoatedBy, CoatingFilms, FilmRefused, FilmSlot, LeftAlone, Suspects},
+        paint::SettingsSource,
         unit::CoatingUnit,
     },
     settings::CoatingSettings,

@@ -5,12 +5,12 @@ use bevy::ecs::{change_detection::DetectChangesMut, entity::Entity};
 use super::{
     action::Action,
     files,
-    followed::Seen,
+    seen::Seen,
     state::CoatingPanel,
     view::{PanelWorld, settings_of},
 };
 use crate::{
-    api::{coating::SettingsSource, heat_map_view::HeatMapView},
+    api::{heat_map_view::HeatMapView, paint::SettingsSource},
     gizmos::CoatingGizmos,
     settings::CoatingSettings,
     stepping::TouchCommands,

@@ -1,29 +1,12 @@
 //! Loads the settings file again when it has changed on the disk.
 
-use std::{path::Path, time::SystemTime};
-
 use bevy::ecs::system::{Local, ResMut};
 use web_time::{Duration, Instant};
 
-use super::state::CoatingPanel;
+use super::{seen::Seen, state::CoatingPanel};
 
 /// Time between two looks at the file.
 const PAUSE: Duration = Duration::from_millis(400);
-
-/// File at which somebody looked, and when it had been written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Seen {
-    file: String,
-    written: SystemTime,
-}
-
-impl Seen {
-    /// Looks at a file; `None` if it is not there, or the system does not tell when it was written.
-    pub fn look(file: &str) -> Option<Self> {
-        let written = std::fs::metadata(Path::new(file)).and_then(|data| data.modified()).ok()?;
-        Some(Self { file: file.to_owned(), written })
-    }
-}
 
 /// Looks at the file from time to time while it is followed, and asks for it to be loaded when it has changed.
 pub(super) fn follow_file(mut panel: ResMut<CoatingPanel>, mut last: Local<Option<Instant>>) {
@@ -37,7 +20,7 @@ pub(super) fn follow_file(mut panel: ResMut<CoatingPanel>, mut last: Local<Optio
     *last = Some(now);
     // A file that is just being replaced may be missing for a moment.
     let Some(seen) = Seen::look(&panel.file) else { return };
-    let has_changed = panel.seen.as_ref().is_some_and(|before| before.file == seen.file && *before != seen);
+    let has_changed = panel.seen.as_ref().is_some_and(|before| seen.is_later_than(before));
     panel.file_has_changed |= has_changed;
     panel.seen = Some(seen);
 }

@@ -25,6 +25,7 @@ mod legend;
 mod past;
 mod plot;
 mod row;
+mod seen;
 mod settings_side;
 mod state;
 mod statistics;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bevy::ecs::{entity::Entity, resource::Resource, system::Res};
 use bevy_egui::egui::Rect;
 
-use super::{followed::Seen, widget::PanelWidget};
+use super::{seen::Seen, widget::PanelWidget};
 use crate::settings::{CoatingSettings, Preset};
 
 /// Default of [`CoatingPanel::keyframe_bytes`]: 4 MiB.

@@ -24,13 +24,8 @@ use super::{
 use crate::api::seed::CoatingSeed;
 use crate::{
     api::{
-        clock::CoatingClock,
-        coating::{Coating, SettingsSource},
-        diagnostics,
-        heat_map_view::HeatMapView,
-        links::CoatedBy,
-        snapshot::CoatingSnapshot,
-        summary::FilmSummary,
+        clock::CoatingClock, coating::Coating, diagnostics, heat_map_view::HeatMapView, links::CoatedBy,
+        paint::SettingsSource, snapshot::CoatingSnapshot, summary::FilmSummary,
     },
     film::FilmMesh,
     gizmos::CoatingGizmos,

@@ -1,4 +1,4 @@
-//! Hands the pace and the weather of each coating to its films before the steps of a frame, so that a pause acts at once.
+//! Hands pace and weather of each coating to its films before the steps of a frame, so that a pause acts at once.
 
 use bevy::{
     ecs::{
