@@ -22,6 +22,7 @@ use crate::{
         },
         status::CoatingStatus,
         system_sets::{CoatingAdvance, CoatingDisplay},
+        turn::add_frames,
         unit::CoatingUnit,
         weather::CoatingWeather,
     },
@@ -101,6 +102,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .add_message::<RestoreFailed>();
         diagnostics::add_diagnostics(app);
         stepping::add_step_schedule(app);
+        add_frames(app);
         add_attachment(app);
         add_debris(app);
         let checks = (stepping::check_weather, stepping::check_clock, stepping::follow_coatings);
