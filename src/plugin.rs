@@ -23,6 +23,7 @@ use crate::{
         },
         status::CoatingStatus,
         system_sets::{CoatingAdvance, CoatingDisplay},
+        turn::add_frames,
         unit::CoatingUnit,
         weather::CoatingWeather,
     },
@@ -103,6 +104,7 @@ impl Plugin for CoatingWeatheringPlugin {
             .add_message::<RestoreFailed>();
         diagnostics::add_diagnostics(app);
         stepping::add_step_schedule(app);
+        add_frames(app);
         add_attachment(app);
         add_debris(app);
         let checks = (

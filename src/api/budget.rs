@@ -24,6 +24,9 @@ use bevy::{
 /// in a frame in which any is due. Steps that were [requested](super::clock::CoatingClock::request_steps) are never
 /// dropped.
 ///
+/// Building films and other work in the background has threads of its own. In browsers, where it has none, it may take
+/// [`max_time`](Self::max_time) in each frame as well.
+///
 /// ```
 /// use std::time::Duration;
 ///

@@ -30,5 +30,6 @@ pub(crate) mod status;
 pub(crate) mod step_account;
 pub(crate) mod summary;
 pub(crate) mod system_sets;
+pub(crate) mod turn;
 pub(crate) mod unit;
 pub(crate) mod weather;

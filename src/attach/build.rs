@@ -10,18 +10,18 @@ use bevy::{
 
 use super::order::FilmInputs;
 use crate::{
-    api::{coating::FilmKey, error::CoatingFault, limits::MAX_START_AGE},
+    api::{coating::FilmKey, error::CoatingFault, limits::MAX_START_AGE, turn::Turn},
     display::{FilmDisplay, FilmPaint},
     history::{Event, History},
     mesh_reader::surface_of,
-    remesh::{FilmTarget, build_film as remesh},
+    remesh::{FilmTarget, Rest, build_film_in_pieces as remesh},
     settings::CoatingSettings,
     shelter::{CastOrder, FilmShelter},
     sim::{FilmState, coarser_than_grain},
     snapshot::SnapshotError,
     stain::{Environment, exposure::ExposedSurface},
     surface::{BuildError, BuildWarning},
-    timeline::{FilmHistory, Turn},
+    timeline::FilmHistory,
 };
 
 /// Film that is being built, on the film's entity. Dropping it cancels the build at its next rest.
@@ -75,7 +75,7 @@ pub(crate) struct FilmReadiness {
 }
 
 /// Builds a film, ages it to its start age or puts its saved state back, and writes its display meshes. Whatever takes
-/// long [rests](Turn) in between, so that one heavy build does not hold up all others, and ends where nobody wants it
+/// long [rests](Rest) in between, so that one heavy build does not hold up all others, and ends where nobody wants it
 /// any more.
 ///
 /// # Errors
@@ -84,12 +84,12 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     let FilmOrder { inputs, target, seed, paint } = order;
     let FilmInputs { target: most, shelter, saved, history, .. } = inputs;
     let FilmInputs { meshes, key, settings, quality, masks, scale, past, .. } = inputs;
-    let mut turn = Turn::begin();
+    let mut turn = Turn::begin().await;
     let (mut surface, attributes) = surface_of(&meshes, scale)?;
     drop(meshes);
     let origin = surface.recentre();
     turn.rest().await;
-    let mut built = remesh(&surface, target, seed)?;
+    let mut built = remesh(&surface, target, seed, &mut turn).await?;
     turn.rest().await;
     let mut film = FilmState::new(&built, &settings, seed, key.steps_per_age)
         .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;

@@ -1,13 +1,13 @@
 //! Loose pieces keep their place: without inertia, what a solve adds to a free piece as a whole is an
 //! artefact of the order of constraints, and would propel and spin it.
 
-use bevy_math::{Mat3, Quat, Vec3};
+use bevy_math::{Mat3, Vec3};
 
 use super::{
     half_space::above_plane,
     packed::points::{Motion, Points},
 };
-use crate::film::{Geometry, LoosePiece, LoosePieces};
+use crate::film::{Geometry, LoosePiece, LoosePieces, rotation::Rotation};
 
 /// Notes in `before` where the vertices of the loose pieces are before a solve. Pieces that sleep are passed over.
 pub fn remember(positions: &[Vec3], loose: &LoosePieces, points: &Points, before: &mut Vec<Vec3>) {
@@ -31,7 +31,7 @@ pub fn put_back(geometry: &mut Geometry, loose: &LoosePieces, points: &mut Point
         let centre_before = before.iter().sum::<Vec3>() / count;
         let centre_now = now().sum::<Vec3>() / count;
         let turn = net_rotation(before.iter().map(|p| p - centre_before), now().map(|p| p - centre_now));
-        let back = |p: Vec3| centre_before + turn * (p - centre_now);
+        let back = |p: Vec3| centre_before + turn.apply(p - centre_now);
         for &v in piece.vertices {
             if points.motion(v.index()) == Motion::Asleep {
                 continue;
@@ -51,7 +51,7 @@ fn is_awake(piece: &LoosePiece, points: &Points) -> bool {
 
 /// Returns the rotation that takes the net turn from `before` to `now` (both about their centres) out again: the
 /// angular velocity of the displacement, from angular momentum and inertia tensor of unit masses.
-fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Vec3>) -> Quat {
+fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Vec3>) -> Rotation {
     let (mut momentum, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
     for (a, b) in before.zip(now) {
         let middle = (a + b) * 0.5;
@@ -64,13 +64,13 @@ fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Ve
     // In units in which the trace is near 1 nothing below overflows or vanishes. A power of two changes no other bit.
     let unit = f32::from_bits(trace.to_bits() & 0x7f80_0000);
     if !(unit.is_normal() && unit.recip().is_normal()) {
-        return Quat::IDENTITY;
+        return Rotation::IDENTITY;
     }
     let (momentum, inertia, trace) = (momentum * unit.recip(), inertia * unit.recip(), trace * unit.recip());
     if !(inertia.determinant() > 1e-9 * trace * trace * trace) {
-        return Quat::IDENTITY;
+        return Rotation::IDENTITY;
     }
     let half_turn = inertia.inverse() * momentum * -0.5;
     // Cayley: exact for the half-way frame used above, and needs no trigonometry.
-    Quat::from_xyzw(half_turn.x, half_turn.y, half_turn.z, 1.0).normalize()
+    Rotation::of([half_turn.x, half_turn.y, half_turn.z, 1.0])
 }

@@ -23,6 +23,7 @@ use crate::{
         coating::Coating,
         film_pace::FilmPace,
         links::{CoatedBy, FilmSource},
+        turn::Turn,
     },
     appearance::{Detail, DisplayChanges},
     film::FilmMesh,
@@ -110,6 +111,7 @@ fn begin(
     let (edge, space) = (display.film_edge, display.space);
     let attributes: Vec<SlotAttributes> = display.slots.iter().map(|slot| slot.attributes).collect();
     let task = AsyncComputeTaskPool::get().spawn(async move {
+        let _turn = Turn::begin().await;
         let appearance = levels.appearance(level, &mesh, &forces, &stains);
         PreparedLevel::new(appearance, &attributes, paint, edge, space)
     });

@@ -116,6 +116,9 @@ fn remove_left(folder: &Path, prefix: &str) {
 /// Creates a file that was not there, and locks it.
 #[expect(clippy::cast_possible_truncation, reason = "any number will do that differs from moment to moment")]
 fn create(folder: &Path, prefix: &str) -> io::Result<(File, PathBuf)> {
+    // Says so where there is no such folder, or where there are no files, as in browsers: these have neither a clock
+    // nor numbers of processes that could be asked without a panic.
+    fs::metadata(folder)?;
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     let seed = now.as_nanos() as u64 ^ u64::from(process::id()).rotate_left(32);
     for i in 0..TRIES {
@@ -140,6 +143,13 @@ fn create(folder: &Path, prefix: &str) -> io::Result<(File, PathBuf)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_that_is_not_there_is_an_error() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let error = Temporary::write(&folder.path().join("none"), ".test-", b"bytes").expect_err("no folder");
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+    }
 
     #[test]
     fn what_the_dead_have_left_goes_and_what_lives_stays() {

@@ -32,6 +32,7 @@ mod handles;
 mod mesh;
 mod pieces;
 mod renew;
+pub(crate) mod rotation;
 mod saved;
 mod topology;
 mod validate;

@@ -1,11 +1,14 @@
 //! Draws the initial adhesion of a film from Perlin noise (VC 5.1).
 
-use bevy_math::{DVec3, Quat, Vec3};
+use bevy_math::{DVec3, Vec3};
 use noise::{NoiseFn, Perlin};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::{film::Grain, settings::AdhesionSettings};
+use crate::{
+    film::{Grain, rotation::Rotation},
+    settings::AdhesionSettings,
+};
 
 /// Amplitude of each further octave, relative to the octave before.
 const GAIN: f64 = 0.5;
@@ -60,7 +63,7 @@ pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, grain: Op
     positions
         .iter()
         .map(|&p| {
-            let q = (rotation * ((p - min) * scale)).as_dvec3() + shift.as_dvec3();
+            let q = rotation.apply((p - min) * scale).as_dvec3() + shift.as_dvec3();
             let (mut sum, mut gain, mut frequency) = (0.0, 1.0, 1.0);
             for _ in 0..settings.octaves {
                 sum += gain * noise_at(&perlin, q * frequency);
@@ -92,12 +95,11 @@ fn octaves_deviation(octaves: u32) -> f64 {
 
 /// Draws a rotation from the uniform distribution: a quaternion from the unit ball, by rejection, so that no
 /// trigonometry is needed.
-fn random_rotation(rng: &mut ChaCha8Rng) -> Quat {
+fn random_rotation(rng: &mut ChaCha8Rng) -> Rotation {
     loop {
-        let q = bevy_math::Vec4::from_array(rng.random()) * 2.0 - 1.0;
-        let length_squared = q.length_squared();
-        if (0.01..=1.0).contains(&length_squared) {
-            return Quat::from_vec4(q / length_squared.sqrt());
+        let quaternion = rng.random::<[f32; 4]>().map(|number| number * 2.0 - 1.0);
+        if (0.01..=1.0).contains(&Rotation::length_squared(quaternion)) {
+            return Rotation::of(quaternion);
         }
     }
 }

@@ -3,6 +3,7 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
+use super::rest::{PIECE, Rest};
 use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
 use crate::film::{HalfEdgeId, VertexId};
 
@@ -24,7 +25,7 @@ pub(super) struct CollapseLimits {
 }
 
 /// Collapses short edges, the shortest first.
-pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) {
+pub(super) async fn collapse_short_edges(mesh: &mut WorkMesh<'_>, limits: CollapseLimits, rest: &mut impl Rest) {
     let mut short: Vec<(f32, HalfEdgeId)> = mesh
         .topology
         .edges()
@@ -32,7 +33,10 @@ pub(super) fn collapse_short_edges(mesh: &mut WorkMesh, limits: CollapseLimits) 
         .filter(|&(length, _)| length < limits.shortest)
         .collect();
     short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    for (_, h) in short {
+    for (i, (_, h)) in short.into_iter().enumerate() {
+        if i.is_multiple_of(PIECE) {
+            rest.rest().await;
+        }
         if mesh.topology.live_faces() <= limits.fewest_faces {
             return;
         }

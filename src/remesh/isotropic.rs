@@ -17,6 +17,7 @@ use super::{
     order, polish,
     reference::Reference,
     relax::{self, Relaxation},
+    rest::Rest,
     sites,
     sizing::LEAST_PART,
     split::{self, SplitLimits},
@@ -72,15 +73,16 @@ const NEEDLE: f32 = 0.1;
 const MOST_NEEDLES: f64 = 0.25;
 
 /// Remeshes the surface, or keeps its triangles if the target says so. Where features or topology do not allow a film
-/// as coarse as asked for, it is finer and has a warning.
+/// as coarse as asked for, it is finer and has a warning. It rests between the pieces of its work.
 ///
 /// # Errors
 /// [`BuildError::TooLarge`] only.
-pub(super) fn remesh(
+pub(super) async fn remesh(
     surface: &Surface,
     clean: &CleanSurface,
     target: FilmTarget,
     seed: u64,
+    rest: &mut impl Rest,
 ) -> Result<BuiltFilm, BuildError> {
     let area = area_of(clean);
     let (count, length) = match target {
@@ -95,12 +97,7 @@ pub(super) fn remesh(
     let (mut film, starved) = loop {
         let scale = Scale { target: length, triangles: count as f32, fidelity };
         let mut reference = Reference::new(surface, clean, scale);
-        let build = |reference: &Reference| {
-            let mut mesh = WorkMesh::new(reference);
-            run(&mut mesh, target, length, count, &mut ChaCha8Rng::seed_from_u64(seed));
-            let asks_too_much = asks_too_much(&mesh, count, fidelity);
-            (sites::finish(&mesh, surface, clean), asks_too_much)
-        };
+        rest.rest().await;
         let less = fidelity.next();
         // Every fixed vertex takes a triangle or two.
         if let Some(less) = less
@@ -109,7 +106,8 @@ pub(super) fn remesh(
             fidelity = less;
             continue;
         }
-        let (mut film, asks_too_much) = build(&reference);
+        let goal = Goal { target, length, count, fidelity, seed };
+        let (mut film, asks_too_much) = build(surface, clean, &reference, goal, rest).await;
         if let Some(less) = less
             && asks_too_much
         {
@@ -120,7 +118,7 @@ pub(super) fn remesh(
         let loss = ShapeLoss::of(clean, &film);
         if loss.excess() > 1.0 {
             reference.closeness = CLOSER;
-            let (closer, asks_too_much) = build(&reference);
+            let (closer, asks_too_much) = build(surface, clean, &reference, goal, rest).await;
             if !asks_too_much && ShapeLoss::of(clean, &closer).excess() < loss.excess() {
                 film = closer;
             }
@@ -142,6 +140,34 @@ pub(super) fn remesh(
     }
     film.warnings.extend(ShapeLoss::of(clean, &film).warning(target));
     Ok(order::along_curve(film))
+}
+
+/// Goal of one try.
+#[derive(Clone, Copy)]
+struct Goal {
+    target: FilmTarget,
+    /// Length of the edges.
+    length: f32,
+    /// Number of the triangles.
+    count: f64,
+    fidelity: Fidelity,
+    seed: u64,
+}
+
+/// Remeshes the surface once. Returns whether that asks for too many triangles, too.
+async fn build(
+    surface: &Surface,
+    clean: &CleanSurface,
+    reference: &Reference<'_>,
+    goal: Goal,
+    rest: &mut impl Rest,
+) -> (BuiltFilm, bool) {
+    let mut mesh = WorkMesh::new(reference);
+    run(&mut mesh, goal, rest).await;
+    let asks_too_much = asks_too_much(&mesh, goal.count, goal.fidelity);
+    let film = sites::finish(&mesh, surface, clean);
+    rest.rest().await;
+    (film, asks_too_much)
 }
 
 /// Returns whether the features are too close together for the count. Facets that force needles on the film are given
@@ -167,7 +193,9 @@ fn is_count(target: FilmTarget) -> bool {
     matches!(target, FilmTarget::Triangles(_))
 }
 
-fn run(mesh: &mut WorkMesh, target: FilmTarget, length: f32, count: f64, rng: &mut ChaCha8Rng) {
+async fn run(mesh: &mut WorkMesh<'_>, goal: Goal, rest: &mut impl Rest) {
+    let Goal { target, length, count, seed, .. } = goal;
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     // A count is approached from the fine side, since detail of a scan that early collapses lose never comes back.
     let mut edge = if is_count(target) { length } else { length / SETTLED };
     let most = (MOST_WHILE_SPLITTING * count) as usize + mesh.topology.live_faces();
@@ -175,35 +203,47 @@ fn run(mesh: &mut WorkMesh, target: FilmTarget, length: f32, count: f64, rng: &m
         // In the first rounds the edges are still too long or too short to judge bends by them.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
         split::split_edges(mesh, SplitLimits { stray, ..cuts(edge, most) }, rng);
+        rest.rest().await;
         flip::flip_edges(mesh);
-        collapse::collapse_short_edges(mesh, limits(edge));
+        collapse::collapse_short_edges(mesh, limits(edge), rest).await;
+        rest.rest().await;
         flip::flip_edges(mesh);
-        relax(mesh, edge, JITTER * edge, rng);
+        rest.rest().await;
+        relax(mesh, edge, JITTER * edge, rng, rest).await;
         if is_count(target) {
             let ratio = (mesh.topology.live_faces() as f64 / count).sqrt() as f32;
             edge = (edge * ratio).clamp(length / ADJUSTMENT, length * ADJUSTMENT);
         }
     }
     for _ in 0..CALM_ROUNDS {
-        relax(mesh, edge, 0.0, rng);
+        relax(mesh, edge, 0.0, rng, rest).await;
         split::split_edges(mesh, cuts(edge, most), rng);
         flip::flip_edges(mesh);
+        rest.rest().await;
     }
     let mut fewest_faces = 4;
     if let FilmTarget::Triangles(count) = target {
-        meet_count(mesh, edge, CollapseLimits { fewest_faces: count as usize, ..limits(edge) }, rng);
+        let limits = CollapseLimits { fewest_faces: count as usize, ..limits(edge) };
+        meet_count(mesh, edge, limits, rng, rest).await;
         fewest_faces = (count as usize).saturating_sub(count as usize / 100).max(4);
     }
     for _ in 0..POLISH_ROUNDS {
         let limits = CollapseLimits { shortest: edge, longest: 1.5 * edge, quality: 1.0, fewest_faces, ..limits(edge) };
         polish::polish(mesh, limits, edge);
+        rest.rest().await;
     }
 }
 
 /// Collapses the shortest or splits the longest edges until the count is met.
-fn meet_count(mesh: &mut WorkMesh, edge: f32, limits: CollapseLimits, rng: &mut ChaCha8Rng) {
+async fn meet_count(
+    mesh: &mut WorkMesh<'_>,
+    edge: f32,
+    limits: CollapseLimits,
+    rng: &mut ChaCha8Rng,
+    rest: &mut impl Rest,
+) {
     let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, ..limits };
-    collapse::collapse_short_edges(mesh, reserve);
+    collapse::collapse_short_edges(mesh, reserve, rest).await;
     split::split_longest_edges(mesh, edge, limits.fewest_faces, rng);
     flip::flip_edges(mesh);
 }
@@ -223,11 +263,12 @@ fn limits(edge: f32) -> CollapseLimits {
     }
 }
 
-fn relax(mesh: &mut WorkMesh, edge: f32, jitter: f32, rng: &mut ChaCha8Rng) {
+async fn relax(mesh: &mut WorkMesh<'_>, edge: f32, jitter: f32, rng: &mut ChaCha8Rng, rest: &mut impl Rest) {
     let quality = if jitter > 0.0 { FAIR_SHAKEN } else { FAIR };
     let settings = Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, stray: STRAY_COLLAPSE * edge, quality };
-    relax::relax(mesh, settings, rng);
+    relax::relax(mesh, settings, rng, rest).await;
     flip::flip_edges(mesh);
+    rest.rest().await;
 }
 
 fn area_of(clean: &CleanSurface) -> f64 {

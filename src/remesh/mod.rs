@@ -24,6 +24,7 @@ mod project;
 mod reference;
 mod relax;
 mod resolution;
+mod rest;
 pub mod sample;
 mod seams;
 mod share;
@@ -39,11 +40,13 @@ mod work_mesh;
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
 pub use fine::{FineSites, fine_sites};
 pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
+pub(crate) use rest::Rest;
 pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
 pub use target::FilmTarget;
 
 use crate::surface::{BuildError, Surface, clean};
 use frame::Frame;
+use rest::{NoRest, at_once};
 
 /// Builds the film of a surface: cleans the surface, remeshes it to the target (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.
@@ -75,10 +78,24 @@ use frame::Frame;
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 pub fn build_film(surface: &Surface, target: FilmTarget, seed: u64) -> Result<BuiltFilm, BuildError> {
+    at_once(build_film_in_pieces(surface, target, seed, &mut NoRest))
+}
+
+/// Does what [`build_film`] does, with rests between its pieces.
+///
+/// # Errors
+/// See [`build_film`].
+pub(crate) async fn build_film_in_pieces(
+    surface: &Surface,
+    target: FilmTarget,
+    seed: u64,
+    rest: &mut impl Rest,
+) -> Result<BuiltFilm, BuildError> {
     target.validate()?;
     let frame = Frame::of(surface)?;
     let moved = frame.enter(surface);
     let surface = moved.as_ref().unwrap_or(surface);
     let clean = clean(surface)?;
-    frame.leave(isotropic::remesh(surface, &clean, target, seed)?)
+    rest.rest().await;
+    frame.leave(isotropic::remesh(surface, &clean, target, seed, rest).await?)
 }

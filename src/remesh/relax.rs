@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::collapse::chain_neighbours;
 use super::project::project;
+use super::rest::{PIECE, Rest};
 use super::work_mesh::{SurfacePoint, WorkMesh};
 use crate::film::VertexId;
 
@@ -27,8 +28,11 @@ pub(super) struct Relaxation {
 }
 
 /// Moves every vertex once, in index order.
-pub(super) fn relax(mesh: &mut WorkMesh, settings: Relaxation, rng: &mut ChaCha8Rng) {
+pub(super) async fn relax(mesh: &mut WorkMesh<'_>, settings: Relaxation, rng: &mut ChaCha8Rng, rest: &mut impl Rest) {
     for v in (0..mesh.topology.vertex_slots()).map(VertexId::new) {
+        if v.index().is_multiple_of(PIECE) {
+            rest.rest().await;
+        }
         if mesh.topology.outgoing(v).is_none() {
             continue;
         }

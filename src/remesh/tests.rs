@@ -9,7 +9,7 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::topology::Topology;
-use super::{BuiltFilm, FilmTarget, build_film, clean};
+use super::{BuiltFilm, FilmTarget, Rest, build_film, build_film_in_pieces, clean, rest::at_once};
 use crate::{
     film::{FaceId, VertexId},
     surface::{BuildError, BuildWarning, Surface},
@@ -286,6 +286,26 @@ fn the_same_seed_gives_the_same_bits() {
         |film: &BuiltFilm| film.positions.iter().flat_map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
     assert_eq!((bits(&a), &a.triangles, &a.sites), (bits(&b), &b.triangles, &b.sites));
     assert_ne!(bits(&a), bits(&other));
+}
+
+/// Counts the rests.
+struct Counter(u32);
+
+impl Rest for Counter {
+    async fn rest(&mut self) {
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn a_film_that_is_built_in_pieces_is_the_same() {
+    let surface = bevelled_box(Vec3::new(1.0, 0.7, 0.5), 0.1, 2);
+    let (target, mut counter) = (FilmTarget::Triangles(1000), Counter(0));
+    let whole = build_film(&surface, target, 4).expect("a film");
+    let in_pieces = at_once(build_film_in_pieces(&surface, target, 4, &mut counter)).expect("a film");
+    assert_eq!((in_pieces.positions, in_pieces.sites), (whole.positions, whole.sites));
+    // Those of ten rounds at least: many enough for the frames of a browser.
+    assert!(counter.0 > 50, "{}", counter.0);
 }
 
 #[test]

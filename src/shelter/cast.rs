@@ -30,6 +30,7 @@ use crate::{
         film_pace::FilmPace,
         links::{CoatedBy, FilmSource},
         shelter::Shelter,
+        turn::Turn,
         weather::CoatingWeather,
     },
     film::FilmMesh,
@@ -198,6 +199,7 @@ fn begin(shelter: &mut FilmShelter, mut order: CastOrder, mesh: &FilmMesh, spher
     let (key, surface) = (order.key.clone(), shelter.surface.clone());
     let mesh = surface.is_none().then(|| mesh.clone());
     let task = AsyncComputeTaskPool::get().spawn(async move {
+        let _turn = Turn::begin().await;
         let surface = surface.unwrap_or_else(|| Arc::new(ExposedSurface::new(&mesh.unwrap_or_default())));
         Cast { exposure: order.cast(&surface), surface }
     });

@@ -32,6 +32,7 @@ use crate::{
         error::CoatingFault,
         links::{AwaitingFilm, CoatedBy, CoatingPart, FilmOutdated, FilmSlot},
         shelter::{RainShelter, Shelter},
+        turn::Turn,
         weather::{CoatingWeather, PropWeather},
     },
     mesh_reader::shape_of,
@@ -311,6 +312,7 @@ fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>
         Ok((positions, triangles)) => {
             let count = triangles.len();
             let task = AsyncComputeTaskPool::get().spawn(async move {
+                let _turn = Turn::begin().await;
                 let corner = |v: u32| positions.get(v as usize).map_or(Vec3::NAN, |&p| Vec3::from_array(p));
                 TriangleTree::new(triangles.iter().map(|t| t.map(corner)))
             });

@@ -7,9 +7,11 @@ use bevy::{
     tasks::{AsyncComputeTaskPool, Task},
 };
 
-use super::{film_history::FilmHistory, turn::Turn};
+use super::film_history::FilmHistory;
 use crate::{
+    api::turn::Turn,
     history::{Conditions, History, Past},
+    remesh::Rest,
     settings::CoatingSettings,
     sim::FilmState,
     snapshot::{Snapshot, SnapshotError},
@@ -62,7 +64,7 @@ pub(super) fn go_on(
     step: u64,
 ) -> FilmJourney {
     let task = AsyncComputeTaskPool::get().spawn(async move {
-        let mut turn = Turn::begin();
+        let mut turn = Turn::begin().await;
         while film.clock.steps < step {
             film.step(&settings, &environment);
             turn.rest().await;
@@ -84,7 +86,7 @@ pub(super) fn go_through(
     let (past, conditions) = (past.clone(), conditions.clone());
     let film = (!past.leads_back(now, step)).then(film);
     let task = AsyncComputeTaskPool::get().spawn(async move {
-        let mut turn = Turn::begin();
+        let mut turn = Turn::begin().await;
         let mut history = match film {
             Some(film) => History { film, now: conditions, past },
             None => {
@@ -112,6 +114,7 @@ pub(super) fn go_to_saved(
     bytes: Option<usize>,
 ) -> FilmJourney {
     let task = AsyncComputeTaskPool::get().spawn(async move {
+        let _turn = Turn::begin().await;
         let restored = saved.restore(&film.mesh)?;
         begin_history(restored, conditions, bytes)
     });
@@ -120,7 +123,10 @@ pub(super) fn go_to_saved(
 
 /// Begins a history of `film`, with at most `bytes` of keyframes.
 pub(super) fn stay(film: FilmState, conditions: Conditions, bytes: usize) -> FilmJourney {
-    let task = AsyncComputeTaskPool::get().spawn(async move { begin_history(film, conditions, Some(bytes)) });
+    let task = AsyncComputeTaskPool::get().spawn(async move {
+        let _turn = Turn::begin().await;
+        begin_history(film, conditions, Some(bytes))
+    });
     FilmJourney { task, goal: Goal::History }
 }
 

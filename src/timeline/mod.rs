@@ -13,7 +13,6 @@ mod path;
 mod record;
 mod save;
 mod travel;
-mod turn;
 mod whole_film;
 
 pub use commands::CoatingCommands;
@@ -23,4 +22,3 @@ pub(crate) use journey::{FilmJourney, FilmWish, Goal};
 pub(crate) use path::{path_to, written_path};
 pub(crate) use record::{keep_past, note_conditions};
 pub(crate) use travel::{follow_histories, travel};
-pub(crate) use turn::Turn;

@@ -10,7 +10,7 @@ use bevy::{
 
 use super::{film_history::FilmHistory, whole_film::WholeFilm};
 use crate::{
-    api::{diagnostics::CoatingTimings, film_pace::FilmPace},
+    api::{diagnostics::CoatingTimings, film_pace::FilmPace, turn::Turn},
     appearance::DisplayChanges,
     history::{Conditions, Event},
     settings::CoatingSettings,
@@ -47,7 +47,10 @@ pub(crate) fn keep_past(
             // Before the edits: they follow when a keyframe is restored.
             if history.is_due(step) {
                 let (mut past, mut state) = (history.past.clone(), film.state());
-                history.write(AsyncComputeTaskPool::get().spawn(async move { past.keyframe_of(&mut state) }));
+                history.write(AsyncComputeTaskPool::get().spawn(async move {
+                    let _turn = Turn::begin().await;
+                    past.keyframe_of(&mut state)
+                }));
             }
             let edits = history.arrive(step);
             if edits.is_empty() {

@@ -294,3 +294,30 @@ mod rules {
         assert_eq!(engine_names(&crate_of(&[("bake/mod.rs", "use bevy_mesh::Mesh;")])).len(), 1);
     }
 }
+
+/// Rooms whose results are the same on every machine, to the bit.
+const TO_THE_BIT: [&str; 8] = ["film", "fracture", "deform", "stain", "sim", "touch", "surface", "remesh"];
+
+/// Types of the maths library that add in another order where registers have four lanes, or divide otherwise.
+const OF_REGISTERS: [&str; 5] = ["Quat", "Vec3A", "Mat3A", "Mat4", "Affine3A"];
+
+/// File that only multiplies and adds by components, in the same order everywhere.
+const IN_ORDER: &str = "stain/exposure/surface.rs";
+
+#[test]
+fn films_do_without_types_whose_bits_depend_on_registers() {
+    let files = sources("src").into_iter().filter(|(file, _)| TO_THE_BIT.contains(&room(file)));
+    let files = files.filter(|(file, _)| file != IN_ORDER && !file.ends_with("tests.rs") && !file.contains("tests/"));
+    let mut found = Vec::new();
+    for (file, source) in files {
+        let code = source.split("#[cfg(test)]").next().expect("code");
+        let lines = code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+        for (i, line) in lines {
+            let mut words = line.split(|c: char| !c.is_alphanumeric());
+            found.extend(
+                words.find(|word| OF_REGISTERS.contains(word)).map(|word| format!("src/{file}:{}: {word}", i + 1)),
+            );
+        }
+    }
+    assert_none(&found, "the bits of films do not depend on registers: see film/rotation.rs");
+}

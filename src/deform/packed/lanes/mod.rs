@@ -11,6 +11,7 @@ pub mod avx2;
 pub mod avx512;
 #[cfg(target_arch = "aarch64")]
 pub mod neon;
+#[cfg(target_arch = "x86_64")]
 pub mod pair;
 pub mod scalar;
 #[cfg(target_arch = "x86_64")]
