@@ -1,5 +1,7 @@
 //! Masks give weights from 0 to 1 on any film, and what they do not touch keeps its bits.
 
+use std::f32::consts::{PI, TAU};
+
 use bevy_math::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 
@@ -183,6 +185,49 @@ fn edges_weigh_the_same_on_fine_and_coarse_films() {
         assert!(near.iter().all(|&weight| weight > 0.9), "{triangles}: {near:?}");
         assert!(far.iter().all(|&weight| weight < 0.01), "{triangles}: {far:?}");
     }
+}
+
+/// A ball of 32 by 16 facets, with smooth shading normals or with those of its facets.
+fn ball(radius: f32, is_smooth: bool) -> Surface {
+    let (around, down) = (32u32, 16u32);
+    let point = |i: u32, j: u32| {
+        let (turn, fall) = (TAU * i as f32 / around as f32, PI * j as f32 / down as f32);
+        radius * Vec3::new(fall.sin() * turn.cos(), fall.cos(), fall.sin() * turn.sin())
+    };
+    let place = |i: u32, j: u32| match j {
+        0 => 0,
+        _ if j == down => 1 + around * (down - 1),
+        _ => 1 + around * (j - 1) + i % around,
+    };
+    let mut positions = vec![point(0, 0)];
+    positions.extend((1..down).flat_map(|j| (0..around).map(move |i| point(i, j))));
+    positions.push(point(0, down));
+    let mut triangles = Vec::new();
+    for (j, i) in (0..down).flat_map(|j| (0..around).map(move |i| (j, i))) {
+        let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+        triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|[x, y, z]| x != y && y != z && z != x));
+    }
+    let at = |v: u32| positions[v as usize];
+    let normals = triangles.iter().flat_map(|&[a, b, c]| {
+        let facet = (at(b) - at(a)).cross(at(c) - at(a));
+        [a, b, c].map(|v| if is_smooth { at(v) } else { facet })
+    });
+    Surface { normals: normals.collect(), positions: positions.clone(), triangles, ..Surface::default() }
+}
+
+#[test]
+fn facets_of_what_is_shaded_smooth_are_no_edges() {
+    let mask = Mask::edges(0.02);
+    let [smooth, faceted] = [true, false].map(|is_smooth| {
+        let prop = Prop::new(ball(0.35, is_smooth), 4000);
+        let weights = prop.weights(&mask);
+        weights.iter().sum::<f32>() / weights.len() as f32
+    });
+
+    assert!(smooth < 0.003 && faceted > 15.0 * smooth, "{smooth} against {faceted}");
+    // A tight curve counts as before, whether it is shaded smooth or not.
+    let small = Prop::new(ball(0.02, true), 4000).weights(&mask);
+    assert!(small.iter().sum::<f32>() / small.len() as f32 > 0.5);
 }
 
 #[test]

@@ -67,7 +67,7 @@ impl Mask {
                 mean_at_corners(ground, vertices, |i| colors.get(i).copied(), |color| unit(channel(color)))
             }
             Self::Edges { reach, soft, sharp } => {
-                turns(mesh, reach).into_iter().map(|turn| slope(turn, soft, sharp)).collect()
+                turns(mesh, ground, reach).into_iter().map(|turn| slope(turn, soft, sharp)).collect()
             }
             Self::Lower { full, none } => heights(places, gravity)
                 .map(|heights| heights.into_iter().map(|height| slope(height, none, full)).collect())

@@ -55,6 +55,27 @@ fn a_prop_that_is_spawned_as_it_was_saved_goes_on_as_if_it_had_never_been_away()
 }
 
 #[test]
+fn a_coating_that_moves_to_another_prop_takes_its_film_along_if_that_was_saved() {
+    let mut app = app();
+    let from = spawn_plate(&mut app, 10, quick_coating().with_seed(4));
+    let mesh = add_mesh(&mut app, plate(10));
+    let [with_film, without] = [0.0, 3.0].map(|x| {
+        let at = Transform::from_xyz(x, 2.0, 0.0);
+        app.world_mut().spawn((Mesh3d(mesh.clone()), at)).id()
+    });
+    wait_for_films(&mut app, 1);
+    take_steps(&mut app, 40);
+    let (before, snapshot) = (digest(&app, from), saved(&app, from));
+    let coating = app.world_mut().entity_mut(from).take::<Coating>().expect("a coating");
+    app.world_mut().entity_mut(without).insert(coating.clone());
+    app.world_mut().entity_mut(with_film).insert((coating, snapshot));
+    wait_for_films(&mut app, 2);
+    assert_eq!(digest(&app, with_film), before);
+    assert_eq!(film_state(&app, without).clock.steps, 0);
+    assert!(app.world().get::<FilmMesh>(from).is_none(), "it has its own mesh again");
+}
+
+#[test]
 fn films_go_back_to_what_was_saved_while_the_game_runs() {
     let mut app = app();
     let mesh = add_mesh(&mut app, plate(8));
