@@ -3,6 +3,9 @@
 //! | page | topic |
 //! |---|---|
 //! | [`getting_started`] | a first prop, glTF scenes, the clock, messages, components |
+//! | [`recipes`] | short answers to "how do I ...", with code |
+//! | [`choosing`] | which grain, resolution and level for which prop, and what they cost |
+//! | [`troubleshooting`] | what to do, by what you see and by what the log says |
 //! | [`settings`] | every setting with its default and range, files, presets |
 //! | [`masks`] | where paint is weak or dirty from the start; custom properties of models |
 //! | [`stains`] | rust, dust and moisture, weather, shelter, colours |
@@ -14,7 +17,10 @@
 //! | [`performance`] | measured times, quality levels |
 //! | [`bad_input`] | what happens to input that is wrong, and the test of each kind |
 //! | [`limits`] | which meshes are taken, and what is not simulated |
-//! | [`how_it_works`] | the stages, and where each comes from in the paper |
+//! | [`browser`] | what is different where one thread does everything |
+//! | [`how_it_works`] | words, the stages, and where each comes from in the paper |
+//! | [`migration`] | what becomes of code that was written for an earlier state |
+//! | [`porting`] | what a new release of Bevy takes |
 //!
 //! The same pages lie in the folder `docs` of the repository. Pages whose examples need the engine are empty without
 //! the feature `plugin` (that of the panel without the feature `panel`).
@@ -23,6 +29,9 @@
 macro_rules! links {
     () => {
         "[getting started]: crate::guide::getting_started
+[recipes]: crate::guide::recipes
+[choosing]: crate::guide::choosing
+[troubleshooting]: crate::guide::troubleshooting
 [settings]: crate::guide::settings
 [masks]: crate::guide::masks
 [stains]: crate::guide::stains
@@ -34,7 +43,10 @@ macro_rules! links {
 [performance]: crate::guide::performance
 [limits]: crate::guide::limits
 [bad input]: crate::guide::bad_input
+[browser]: crate::guide::browser
 [how it works]: crate::guide::how_it_works
+[migration]: crate::guide::migration
+[porting]: crate::guide::porting
 "
     };
 }
@@ -43,6 +55,21 @@ macro_rules! links {
 #[cfg_attr(feature = "plugin", doc = include_str!("../docs/getting_started.md"))]
 #[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
 pub mod getting_started {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "render", doc = include_str!("../docs/recipes.md"))]
+#[cfg_attr(not(feature = "render"), doc = "Needs the feature `render`.")]
+pub mod recipes {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/choosing.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod choosing {}
+
+#[doc = links!()]
+#[cfg_attr(feature = "plugin", doc = include_str!("../docs/troubleshooting.md"))]
+#[cfg_attr(not(feature = "plugin"), doc = "Needs the feature `plugin`.")]
+pub mod troubleshooting {}
 
 #[doc = links!()]
 #[doc = include_str!("../docs/settings.md")]
@@ -94,5 +121,17 @@ pub mod bad_input {}
 pub mod limits {}
 
 #[doc = links!()]
+#[doc = include_str!("../docs/browser.md")]
+pub mod browser {}
+
+#[doc = links!()]
 #[doc = include_str!("../docs/how_it_works.md")]
 pub mod how_it_works {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/migration.md")]
+pub mod migration {}
+
+#[doc = links!()]
+#[doc = include_str!("../docs/porting.md")]
+pub mod porting {}

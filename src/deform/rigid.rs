@@ -67,10 +67,14 @@ fn net_rotation(before: impl Iterator<Item = Vec3>, now: impl Iterator<Item = Ve
         return Rotation::IDENTITY;
     }
     let (momentum, inertia, trace) = (momentum * unit.recip(), inertia * unit.recip(), trace * unit.recip());
-    if !(inertia.determinant() > 1e-9 * trace * trace * trace) {
+    let Mat3 { x_axis: x, y_axis: y, z_axis: z } = inertia;
+    let determinant = z.dot(x.cross(y));
+    if !(determinant > 1e-9 * trace * trace * trace) {
         return Rotation::IDENTITY;
     }
-    let half_turn = inertia.inverse() * momentum * -0.5;
+    // The inverse by hand: releases of the maths library make it in different orders, so that last bits differ.
+    let inverse = [y.cross(z), z.cross(x), x.cross(y)].map(|row| row * determinant.recip());
+    let half_turn = Vec3::from_array(inverse.map(|row| row.dot(momentum))) * -0.5;
     // Cayley: exact for the half-way frame used above, and needs no trigonometry.
     Rotation::of([half_turn.x, half_turn.y, half_turn.z, 1.0])
 }

@@ -2,6 +2,7 @@
 //! needs neither the engine nor the crate: `cargo core --test house`.
 
 mod imports;
+mod links;
 mod parse;
 mod readme;
 mod rooms;

@@ -301,7 +301,8 @@ const TO_THE_BIT: [&str; 8] = ["film", "fracture", "deform", "stain", "sim", "to
 /// Types of the maths library that add in another order where registers have four lanes, or divide otherwise.
 const OF_REGISTERS: [&str; 5] = ["Quat", "Vec3A", "Mat3A", "Mat4", "Affine3A"];
 
-/// File that only multiplies and adds by components, in the same order everywhere.
+/// File that multiplies and adds by components only, in the same order everywhere; what it inverts tells no more than
+/// which blockers need not be looked at.
 const IN_ORDER: &str = "stain/exposure/surface.rs";
 
 #[test]
