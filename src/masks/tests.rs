@@ -223,7 +223,6 @@ fn facets_of_what_is_shaded_smooth_are_no_edges() {
         let weights = prop.weights(&mask);
         weights.iter().sum::<f32>() / weights.len() as f32
     });
-
     assert!(smooth < 0.003 && faceted > 15.0 * smooth, "{smooth} against {faceted}");
     // A tight curve counts as before, whether it is shaded smooth or not.
     let small = Prop::new(ball(0.02, true), 4000).weights(&mask);
