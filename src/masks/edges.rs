@@ -72,8 +72,8 @@ pub(super) fn turns(mesh: &FilmMesh, ground: &MaskGround, reach: f32) -> Vec<f32
     (0..vertices).map(around).collect()
 }
 
-/// Returns the prop's shading normal in the middle of each face of the film: nothing if the prop has none, and zero where
-/// they cancel each other.
+/// Returns the prop's shading normal in the middle of each face of the film: nothing if the prop has none, and zero
+/// where they cancel each other.
 fn shading_normals(ground: &MaskGround) -> Vec<Vec3> {
     let normals = &ground.surface.normals;
     if normals.is_empty() {

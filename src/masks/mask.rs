@@ -34,8 +34,8 @@ pub enum Mask {
     /// A channel of the prop's vertex colours, as they are stored: linear, 0 to 1.
     Color(Channel),
     /// Sharp edges, rims and tight curves that stand out: 1 at edges that turn by `sharp` and more, 0 where the surface
-    /// turns by less than `soft`, or further away than the reach. Edges between triangles of what is shaded smooth count
-    /// as the curve that they stand for, if they turn by less than 0.7 radians.
+    /// turns by less than `soft`, or further away than the reach. Edges between triangles of what is shaded smooth
+    /// count as the curve that they stand for, if they turn by less than 0.7 radians.
     Edges {
         /// Distance up to which an edge counts, in metres, and over which turns are added up: 0.0001 to 100, default
         /// 0.01. It is at least the film's mean edge. Work grows with its square.

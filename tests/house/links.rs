@@ -5,11 +5,15 @@ use std::{collections::BTreeSet, fs, path::Path};
 
 use crate::{assert_none, read, sources};
 
+/// Pages of pictures, which are in the repository only.
+const PICTURES: [&str; 2] = ["gallery", "looks"];
+
 /// Names of the pages of the guide, without their ending.
 fn pages() -> Vec<String> {
     let entries = fs::read_dir("docs").expect("the folder docs");
     let names = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
     let mut pages: Vec<String> = names.filter_map(|name| Some(name.strip_suffix(".md")?.to_owned())).collect();
+    pages.retain(|page| !PICTURES.contains(&page.as_str()));
     pages.sort();
     pages
 }
@@ -95,7 +99,10 @@ fn every_page_is_a_module_and_listed() {
 #[test]
 fn every_relative_link_of_the_other_texts_is_there() {
     let mut found = Vec::new();
-    for file in ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "assets/ATTRIBUTION.md"] {
+    let texts = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "assets/ATTRIBUTION.md"];
+    let pictures = PICTURES.map(|page| format!("docs/{page}.md"));
+    let pictures = pictures.iter().map(String::as_str).filter(|page| Path::new(page).exists());
+    for file in texts.into_iter().chain(["examples/README.md"]).chain(pictures) {
         let text = prose(&read(file));
         let folder = Path::new(file).parent().expect("a folder");
         let links = inline_links(&text).into_iter().chain(defined_links(&text).into_iter().map(|link| link.1));
