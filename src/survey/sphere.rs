@@ -6,6 +6,7 @@ use bevy_math::Vec3;
 
 use super::{
     area::FilmArea,
+    covers,
     point::FilmPoint,
     shares::share,
     triangle,
@@ -42,8 +43,8 @@ impl FilmView<'_> {
         }
         let mut sums = Sums::default();
         let square = radius * radius;
-        for face in self.faces() {
-            let corners = if face.live { self.now(face.corners) } else { self.at_rest(face.corners) };
+        let sides = self.sides_of_box(centre, square);
+        for (face, corners) in self.places_near(&sides) {
             let [a, b, c] = corners;
             let beside = (a.min(b).min(c) - centre).max(centre - a.max(b).max(c)).max(Vec3::ZERO);
             if beside.length_squared() > square {
@@ -53,33 +54,97 @@ impl FilmView<'_> {
             let is_in = |p: Vec3| p.distance_squared(centre) <= square;
             let cuts = if corners.into_iter().all(is_in) { 1 } else { cuts(corners, radius) };
             let part = area / f64::from(cuts * cuts);
+            let values = self.corner_values(face);
             for at in middles(cuts).filter(|&at| is_in(triangle::at(corners, at))) {
-                sums.add(&self.place(face, at), part);
+                sums.add(&values.at(at), part);
             }
         }
         if sums.area == 0.0 {
             let place = self.nearest(centre, radius)?;
-            sums.add(&place, PI * f64::from(square));
+            sums.add(&Sample::from(&place), PI * f64::from(square));
         }
         Some(sums.finish())
     }
 
-    /// Describes a place of a face: of the film, or of the metal where it is gone.
-    fn place(&self, face: Face, at: Vec3) -> FilmPoint {
-        let Face { id, corners, live } = face;
-        if live { self.film_point(id, corners, at, false, 0.0) } else { self.metal_point(id, corners, at, 0.0) }
+    /// Returns the values at the corners of a face: of the film, or of the metal where it is gone.
+    fn corner_values(&self, face: Face) -> CornerValues {
+        let Face { corners, live, .. } = face;
+        let held = corners.map(|v| !self.has_separated(v));
+        let (layer, at) = if live { (&self.stains.film, corners) } else { (&self.stains.metal, self.metal(corners)) };
+        let of = |values: &[f32]| at.map(|v| values.get(v.index()).copied().unwrap_or_default());
+        CornerValues {
+            live,
+            held,
+            corrosion: if live { [0.0; 3] } else { of(&self.stains.corrosion) },
+            wet: of(&layer.wet),
+            stained: of(&layer.stained),
+            moisture: of(&layer.moisture),
+            dust: of(&layer.dust),
+        }
+    }
+}
+
+/// What a face shows at its corners, read once for all samples of the face.
+struct CornerValues {
+    live: bool,
+    held: [bool; 3],
+    corrosion: [f32; 3],
+    wet: [f32; 3],
+    stained: [f32; 3],
+    moisture: [f32; 3],
+    dust: [f32; 3],
+}
+
+impl CornerValues {
+    /// Returns the place with these barycentric coordinates.
+    #[inline]
+    fn at(&self, barycentric: Vec3) -> Sample {
+        let blend = |[a, b, c]: [f32; 3]| a * barycentric.x + b * barycentric.y + c * barycentric.z;
+        let weights = barycentric.to_array();
+        let held: f32 = (0..3).filter(|&i| self.held[i]).map(|i| weights[i]).sum();
+        Sample {
+            bare: !self.live,
+            attached: self.live && held >= 0.5,
+            rusted: if self.live { 0.0 } else { covers::rusted(blend(self.corrosion)) },
+            wetness: blend(self.moisture),
+            dust: blend(self.dust),
+            rust_stain: covers::stained(blend(self.wet) + blend(self.stained)),
+        }
+    }
+}
+
+/// What of a place counts: see [`FilmPoint`], of which these are fields.
+pub(super) struct Sample {
+    bare: bool,
+    attached: bool,
+    rusted: f32,
+    wetness: f32,
+    dust: f32,
+    rust_stain: f32,
+}
+
+impl From<&FilmPoint> for Sample {
+    fn from(place: &FilmPoint) -> Self {
+        Self {
+            bare: place.surface.is_metal(),
+            attached: place.attached,
+            rusted: place.rusted,
+            wetness: place.wetness,
+            dust: place.dust,
+            rust_stain: place.rust_stain,
+        }
     }
 }
 
 /// Returns into how many parts to cut the sides of a triangle, so that samples lie about half a radius apart.
-fn cuts([a, b, c]: [Vec3; 3], radius: f32) -> u32 {
+pub(super) fn cuts([a, b, c]: [Vec3; 3], radius: f32) -> u32 {
     let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
     // A radius of 0 gives an infinite number or NaN, which the bounds and the conversion take care of.
     (2.0 * longest / radius).ceil().clamp(CUTS.0, CUTS.1) as u32
 }
 
 /// Returns the middles of the equal triangles into which a triangle falls when its sides are cut into `n` parts.
-fn middles(n: u32) -> impl Iterator<Item = Vec3> {
+pub(super) fn middles(n: u32) -> impl Iterator<Item = Vec3> {
     let whole = n as f32;
     (0..n).flat_map(move |j| {
         (0..n - j).flat_map(move |i| {
@@ -95,8 +160,8 @@ fn middles(n: u32) -> impl Iterator<Item = Vec3> {
 
 /// Sums over places, each times its area.
 #[derive(Default)]
-struct Sums {
-    area: f64,
+pub(super) struct Sums {
+    pub area: f64,
     loose: f64,
     bare: f64,
     rusted: f64,
@@ -106,9 +171,9 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, place: &FilmPoint, area: f64) {
+    pub fn add(&mut self, place: &Sample, area: f64) {
         self.area += area;
-        if place.surface.is_metal() {
+        if place.bare {
             self.bare += area;
         } else if !place.attached {
             self.loose += area;
@@ -119,7 +184,7 @@ impl Sums {
         self.rust_stain += area * f64::from(place.rust_stain);
     }
 
-    fn finish(&self) -> FilmArea {
+    pub fn finish(&self) -> FilmArea {
         let of = |part: f64| share(part, self.area);
         FilmArea {
             area: self.area,
