@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::{
     FilmArea, FilmPoint, FilmView,
     ray::{front, take},
-    sphere::{Sample, Sums, cuts, middles},
+    sphere::{Sample, Sums, cuts, for_middles},
     triangle::{self, Hit},
     view::Face,
 };
@@ -79,15 +79,16 @@ fn in_sphere(view: FilmView, centre: Vec3, radius: f32) -> Option<FilmArea> {
         let area = f64::from(view.mesh.geometry.rest_area_of(&view.mesh.topology, face.id));
         let is_in = |p: Vec3| p.distance_squared(centre) <= square;
         let cuts = if corners.into_iter().all(is_in) { 1 } else { cuts(corners, radius) };
-        for at in middles(cuts).filter(|&at| is_in(triangle::at(corners, at))) {
-            let Face { id, corners, live } = face;
-            let place = if live {
-                view.film_point(id, corners, at, false, 0.0)
-            } else {
-                view.metal_point(id, corners, at, 0.0)
-            };
-            sums.add(&Sample::from(&place), area / f64::from(cuts * cuts));
-        }
+        let Face { id, corners: ids, live } = face;
+        for_middles(cuts, |at| {
+            if is_in(triangle::at(corners, at)) {
+                let place = match live {
+                    true => view.film_point(id, ids, at, false, 0.0),
+                    false => view.metal_point(id, ids, at, 0.0),
+                };
+                sums.add(&Sample::from(&place), area / f64::from(cuts * cuts));
+            }
+        });
     }
     if sums.area == 0.0 {
         sums.add(&Sample::from(&nearest(view, centre, radius)?), PI * f64::from(square));

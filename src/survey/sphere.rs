@@ -12,6 +12,7 @@ use super::{
     triangle,
     view::{Face, FilmView},
 };
+use crate::film::VertexId;
 
 /// Fewest and most parts into which the sides of a face that is partly in a sphere are cut.
 const CUTS: (f32, f32) = (4.0, 32.0);
@@ -50,14 +51,18 @@ impl FilmView<'_> {
             if beside.length_squared() > square {
                 continue;
             }
-            let area = f64::from(self.mesh.geometry.rest_area_of(&self.mesh.topology, face.id));
+            let [a, b, c] = self.at_rest(face.corners);
+            let area = f64::from((b - a).cross(c - a).length_squared().sqrt() * 0.5);
             let is_in = |p: Vec3| p.distance_squared(centre) <= square;
-            let cuts = if corners.into_iter().all(is_in) { 1 } else { cuts(corners, radius) };
+            let is_whole = is_in(corners[0]) && is_in(corners[1]) && is_in(corners[2]);
+            let cuts = if is_whole { 1 } else { cuts(corners, radius) };
             let part = area / f64::from(cuts * cuts);
             let values = self.corner_values(face);
-            for at in middles(cuts).filter(|&at| is_in(triangle::at(corners, at))) {
-                sums.add(&values.at(at), part);
-            }
+            for_middles(cuts, |at| {
+                if is_in(triangle::at(corners, at)) {
+                    sums.add(&values.at(at), part);
+                }
+            });
         }
         if sums.area == 0.0 {
             let place = self.nearest(centre, radius)?;
@@ -69,13 +74,16 @@ impl FilmView<'_> {
     /// Returns the values at the corners of a face: of the film, or of the metal where it is gone.
     fn corner_values(&self, face: Face) -> CornerValues {
         let Face { corners, live, .. } = face;
-        let held = corners.map(|v| !self.has_separated(v));
-        let (layer, at) = if live { (&self.stains.film, corners) } else { (&self.stains.metal, self.metal(corners)) };
-        let of = |values: &[f32]| at.map(|v| values.get(v.index()).copied().unwrap_or_default());
+        let [a, b, c] = corners;
+        let (layer, [d, e, f]) =
+            if live { (&self.stains.film, corners) } else { (&self.stains.metal, self.metal(corners)) };
+        let held = |v: VertexId| if self.has_separated(v) { 0.0 } else { 1.0 };
+        let value = |values: &[f32], v: VertexId| values.get(v.index()).copied().unwrap_or_default();
+        let of = |values: &[f32]| Vec3::new(value(values, d), value(values, e), value(values, f));
         CornerValues {
             live,
-            held,
-            corrosion: if live { [0.0; 3] } else { of(&self.stains.corrosion) },
+            held: Vec3::new(held(a), held(b), held(c)),
+            corrosion: if live { Vec3::ZERO } else { of(&self.stains.corrosion) },
             wet: of(&layer.wet),
             stained: of(&layer.stained),
             moisture: of(&layer.moisture),
@@ -87,21 +95,21 @@ impl FilmView<'_> {
 /// What a face shows at its corners, read once for all samples of the face.
 struct CornerValues {
     live: bool,
-    held: [bool; 3],
-    corrosion: [f32; 3],
-    wet: [f32; 3],
-    stained: [f32; 3],
-    moisture: [f32; 3],
-    dust: [f32; 3],
+    /// Whether the metal holds each corner: 1 or 0.
+    held: Vec3,
+    corrosion: Vec3,
+    wet: Vec3,
+    stained: Vec3,
+    moisture: Vec3,
+    dust: Vec3,
 }
 
 impl CornerValues {
     /// Returns the place with these barycentric coordinates.
     #[inline]
     fn at(&self, barycentric: Vec3) -> Sample {
-        let blend = |[a, b, c]: [f32; 3]| a * barycentric.x + b * barycentric.y + c * barycentric.z;
-        let weights = barycentric.to_array();
-        let held: f32 = (0..3).filter(|&i| self.held[i]).map(|i| weights[i]).sum();
+        let blend = |values: Vec3| values.dot(barycentric);
+        let held = blend(self.held);
         Sample {
             bare: !self.live,
             attached: self.live && held >= 0.5,
@@ -143,19 +151,23 @@ pub(super) fn cuts([a, b, c]: [Vec3; 3], radius: f32) -> u32 {
     (2.0 * longest / radius).ceil().clamp(CUTS.0, CUTS.1) as u32
 }
 
-/// Returns the middles of the equal triangles into which a triangle falls when its sides are cut into `n` parts.
-pub(super) fn middles(n: u32) -> impl Iterator<Item = Vec3> {
+/// Calls `with` for the middles of the equal triangles into which a triangle falls when its sides are cut into `n`
+/// parts. A function and no iterator: nested iterators are not compiled into one loop.
+#[inline]
+pub(super) fn for_middles(n: u32, mut with: impl FnMut(Vec3)) {
     let whole = n as f32;
-    (0..n).flat_map(move |j| {
-        (0..n - j).flat_map(move |i| {
-            let upright = Some(1.0 / 3.0);
-            let inverted = (i + j + 1 < n).then_some(2.0 / 3.0);
-            upright.into_iter().chain(inverted).map(move |third| {
-                let (v, w) = ((i as f32 + third) / whole, (j as f32 + third) / whole);
-                Vec3::new(1.0 - v - w, v, w)
-            })
-        })
-    })
+    let mut middle = |i: u32, j: u32, third: f32| {
+        let (v, w) = ((i as f32 + third) / whole, (j as f32 + third) / whole);
+        with(Vec3::new(1.0 - v - w, v, w));
+    };
+    for j in 0..n {
+        for i in 0..n - j {
+            middle(i, j, 1.0 / 3.0);
+            if i + j + 1 < n {
+                middle(i, j, 2.0 / 3.0);
+            }
+        }
+    }
 }
 
 /// Sums over places, each times its area.
@@ -206,7 +218,8 @@ mod tests {
     #[test]
     fn middles_cover_a_triangle_evenly() {
         for n in [1, 2, 5] {
-            let all: Vec<Vec3> = middles(n).collect();
+            let mut all = Vec::new();
+            for_middles(n, |at| all.push(at));
             assert_eq!(all.len(), (n * n) as usize);
             assert!(all.iter().all(|at| at.min_element() > 0.0 && (at.element_sum() - 1.0).abs() < 1e-6));
             let mean = all.iter().sum::<Vec3>() / (n * n) as f32;
