@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     coding::Damage,
-    film::{FilmPieces, LoosePieces, Origin, PieceScratch, Renewal, Topology, VertexId},
+    film::{FaceId, FilmPieces, LoosePieces, Origin, PieceScratch, Renewal, Topology, VertexId},
 };
 
 impl FilmForces {
@@ -66,7 +66,8 @@ impl FilmForces {
             predictions: Predictions { rates: old.predictions.rates, ..Predictions::default() },
             ..old
         };
-        new.renew_faces(renewal);
+        let is_new = |f: &usize| renewal.faces[*f];
+        new.renew_faces((0..renewal.faces.len()).filter(is_new).map(FaceId::new));
         new.renew_edges(renewal, &fresh);
         new.renew_pieces(renewal);
         let is_separated = |age: &&f32| **age < f32::INFINITY;
@@ -76,16 +77,16 @@ impl FilmForces {
         Ok(())
     }
 
-    fn renew_faces(&mut self, renewal: &Renewal) {
+    /// Gives new faces the contraction of fresh paint.
+    pub(super) fn renew_faces(&mut self, faces: impl Iterator<Item = FaceId>) {
         let (gained, drawn) = (self.contraction_gained as f32, self.drawn.contraction);
-        let is_new = |f: &usize| renewal.faces[*f];
         self.contraction_spared.resize(self.contractions.len(), 0.0);
-        for f in (0..self.contractions.len()).filter(is_new) {
-            self.contractions[f] = Contraction { base: drawn - gained, share: 1.0, drawn };
-            self.contraction_spared[f] = gained;
-        }
-        for f in (0..self.loose_since.len()).filter(is_new) {
-            self.loose_since[f] = f32::INFINITY;
+        for f in faces {
+            self.contractions[f.index()] = Contraction { base: drawn - gained, share: 1.0, drawn };
+            self.contraction_spared[f.index()] = gained;
+            if let Some(since) = self.loose_since.get_mut(f.index()) {
+                *since = f32::INFINITY;
+            }
         }
     }
 

@@ -32,6 +32,15 @@ impl FilmForces {
     /// # Errors
     /// [`Damage`] if there are no settings with which they can have been drawn.
     pub(crate) fn redrawn(&self, rest: &FilmMesh) -> Result<Self, Damage> {
+        let forces = Self::new(rest, &self.drawn_settings()?, self.drawn.seed);
+        if forces.drawn == self.drawn { Ok(forces) } else { Err(Damage("the settings that it was drawn with")) }
+    }
+
+    /// Returns settings with which these forces can have been drawn.
+    ///
+    /// # Errors
+    /// [`Damage`] if there are none.
+    pub(super) fn drawn_settings(&self) -> Result<CoatingSettings, Damage> {
         let mut settings = CoatingSettings::default();
         let [mean, deviation, octaves, cycles] = self.drawn.adhesion;
         let cycles = f32::from_bits(cycles);
@@ -56,8 +65,7 @@ impl FilmForces {
         if octaves > MOST_OCTAVES {
             return Err(Damage("the settings that it was drawn with"));
         }
-        let forces = Self::new(rest, &settings, self.drawn.seed);
-        if forces.drawn == self.drawn { Ok(forces) } else { Err(Damage("the settings that it was drawn with")) }
+        Ok(settings)
     }
 
     /// Returns whether these were drawn as `other` was.

@@ -12,7 +12,7 @@ use crate::{
     settings::CoatingSettings,
     sim::{
         FilmState,
-        edit::{FilmParts, edit},
+        edit::{FilmParts, Renewed, edit},
     },
     stain::Environment,
 };
@@ -22,7 +22,10 @@ use crate::{
 pub struct Touched {
     /// Damage that was done, in the form of a step's changes.
     pub changes: FilmChanges,
-    /// Whether film is new, so that vertices have other numbers than before.
+    /// Whether there is new paint ([`Effect::Repaint`]).
+    pub repainted: bool,
+    /// Whether the film was put together again for it, so that vertices have other numbers than before. It is not where
+    /// nothing was torn.
     pub renewed: bool,
 }
 
@@ -76,7 +79,13 @@ pub fn touch(
         }
         Effect::Repaint => {
             let faces = faces_to_renew(&parts.mesh.topology, touch, &reach);
-            touched.renewed = parts.renew(settings, environment, faces);
+            let renewed = parts.renew(settings, environment, faces);
+            touched.repainted = renewed != Renewed::No;
+            touched.renewed = renewed == Renewed::Whole;
+            if let Renewed::InPlace(attached) = renewed {
+                touched.changes.moved = !attached.is_empty();
+                touched.changes.attached = attached;
+            }
         }
         Effect::Hit(force) => {
             let blow: Vec<f32> = reach.distances.iter().map(|&d| force * touch.strength(d)).collect();
@@ -124,7 +133,7 @@ fn loose_under(parts: &FilmParts, touch: &Touch, reach: &Reach) -> Vec<FaceId> {
 }
 
 impl FilmState {
-    /// Touches the film between two steps: see [`touch`]. Returns whether film is new. What broke is appended to
+    /// Touches the film between two steps: see [`touch`]. Returns whether the film was put together again. What broke is appended to
     /// [`FilmState::changes`].
     ///
     /// # Errors
@@ -135,7 +144,7 @@ impl FilmState {
         settings: &CoatingSettings,
         environment: &Environment,
     ) -> Result<bool, TouchError> {
-        let Touched { changes, renewed } = touch(self.parts(), settings, environment, with)?;
+        let Touched { changes, renewed, .. } = touch(self.parts(), settings, environment, with)?;
         self.changes.append(changes);
         Ok(renewed)
     }
