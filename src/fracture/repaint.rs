@@ -2,7 +2,7 @@
 
 use bevy_math::Vec3;
 
-use super::{adhesion::adhesion_at, drawn::Drawn, forces::FilmForces};
+use super::{adhesion::adhesion_at, forces::FilmForces};
 use crate::{
     coding::Damage,
     film::{FilmMesh, Repaint, VertexId},
@@ -29,10 +29,7 @@ impl FilmForces {
     /// there are none such.
     pub(crate) fn repaint(&mut self, mesh: &FilmMesh, repaint: &Repaint, attach: &[VertexId]) -> Result<(), Damage> {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
-        let settings = self.drawn_settings()?;
-        if Drawn::new(self.drawn.seed, geometry, &settings) != self.drawn {
-            return Err(Damage("the settings that it was drawn with"));
-        }
+        let settings = self.settings_drawn_with(geometry)?;
         for &v in attach {
             self.separated_age[v.index()] = f32::INFINITY;
             self.separations = self.separations.saturating_sub(1);

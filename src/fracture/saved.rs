@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     coding::{Coder, Damage, Differences, Odds},
-    film::{FilmMesh, FilmPieces, Grain, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId},
+    film::{FilmMesh, FilmPieces, Geometry, Grain, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId},
     settings::{CoatingSettings, Rules},
 };
 
@@ -32,15 +32,14 @@ impl FilmForces {
     /// # Errors
     /// [`Damage`] if there are no settings with which they can have been drawn.
     pub(crate) fn redrawn(&self, rest: &FilmMesh) -> Result<Self, Damage> {
-        let forces = Self::new(rest, &self.drawn_settings()?, self.drawn.seed);
-        if forces.drawn == self.drawn { Ok(forces) } else { Err(Damage("the settings that it was drawn with")) }
+        Ok(Self::new(rest, &self.settings_drawn_with(&rest.geometry)?, self.drawn.seed))
     }
 
-    /// Returns settings with which these forces can have been drawn.
+    /// Returns settings with which these forces can have been drawn on a film of this geometry.
     ///
     /// # Errors
     /// [`Damage`] if there are none.
-    pub(super) fn drawn_settings(&self) -> Result<CoatingSettings, Damage> {
+    pub(super) fn settings_drawn_with(&self, geometry: &Geometry) -> Result<CoatingSettings, Damage> {
         let mut settings = CoatingSettings::default();
         let [mean, deviation, octaves, cycles] = self.drawn.adhesion;
         let cycles = f32::from_bits(cycles);
@@ -65,7 +64,8 @@ impl FilmForces {
         if octaves > MOST_OCTAVES {
             return Err(Damage("the settings that it was drawn with"));
         }
-        Ok(settings)
+        let drawn = Drawn::new(self.drawn.seed, geometry, &settings);
+        if drawn == self.drawn { Ok(settings) } else { Err(Damage("the settings that it was drawn with")) }
     }
 
     /// Returns whether these were drawn as `other` was.

@@ -32,8 +32,8 @@ pub struct Touched {
 /// Touches a film between two steps. `settings` and `environment` are those under which it ages.
 ///
 /// The time is proportional to what the touch reaches and breaks, and to a short pass over the faces of the film. But
-/// [`Effect::Scratch`] looks at all edges (2 ms for 10,000 faces), and [`Effect::Repaint`] puts the whole film together
-/// again (6 to 20 ms).
+/// [`Effect::Scratch`] looks at all edges (1 ms for 10,000 faces), and [`Effect::Repaint`] puts the whole film together
+/// again where anything under it is torn or gone (6 to 20 ms).
 ///
 /// # Errors
 /// [`TouchError`], with the film as it was, if a number of the touch is out of range or the film has no such face.
@@ -133,8 +133,8 @@ fn loose_under(parts: &FilmParts, touch: &Touch, reach: &Reach) -> Vec<FaceId> {
 }
 
 impl FilmState {
-    /// Touches the film between two steps: see [`touch`]. Returns whether the film was put together again. What broke is appended to
-    /// [`FilmState::changes`].
+    /// Touches the film between two steps: see [`touch`]. Returns whether the film was put together again. What broke,
+    /// and what new paint attached again, is appended to [`FilmState::changes`].
     ///
     /// # Errors
     /// [`TouchError`], with the film as it was, if a number of the touch is out of range or the film has no such face.

@@ -299,8 +299,15 @@ fn paint_that_is_whole_is_painted_over_in_place() {
     for h in film.mesh.topology.all_edges() {
         assert_eq!(a.bend_of(&in_place.mesh, h), b.bend_of(&whole.mesh, h));
     }
+    // Saved and restored, it goes on with the same bits.
+    let mut fresh = FreshFilm::new(in_place.mesh.at_rest().unwrap());
+    let saved = fresh.write(&mut in_place).unwrap();
+    let mut again = fresh.read(&saved, true).unwrap();
+    assert_eq!(again.digest(), in_place.digest());
     for _ in 0..40 {
         in_place.step(&settings, &ENVIRONMENT);
+        again.step(&settings, &ENVIRONMENT);
+        assert_eq!(again.digest(), in_place.digest());
         whole.step(&settings, &ENVIRONMENT);
         assert_eq!(in_place.validate(), Ok(()));
     }
