@@ -25,9 +25,11 @@ fn film() -> FilmState {
 }
 
 fn bench(bencher: divan::Bencher, effect: Effect, radius: f32) {
-    let film = film();
+    bench_on(bencher, film(), Touch::new(Site::new(FaceId(5_000), Vec3::ONE), radius, effect));
+}
+
+fn bench_on(bencher: divan::Bencher, film: FilmState, touch: Touch) {
     let (settings, environment) = (CoatingSettings::default(), Environment::default());
-    let touch = Touch::new(Site::new(FaceId(5_000), Vec3::ONE), radius, effect);
     bencher.with_inputs(|| film.clone()).bench_local_values(|mut film| {
         film.touch(&touch, &settings, &environment).expect("a touch");
         film
@@ -54,9 +56,30 @@ fn strip(bencher: divan::Bencher, radius: f32) {
     bench(bencher, Effect::Strip, radius);
 }
 
-#[divan::bench(args = [0.1, 2.0])]
-fn repaint(bencher: divan::Bencher, radius: f32) {
+/// Paints over paint that is new already, as all but the front of a stroke does.
+#[divan::bench(args = [0.05, 0.1, 0.2])]
+fn repaint_again(bencher: divan::Bencher, radius: f32) {
+    let (settings, environment) = (CoatingSettings::default(), Environment::default());
+    let site = Site::new(FaceId(5_000), Vec3::ONE);
+    let mut film = film();
+    film.touch(&Touch::new(site, 2.0 * radius, Effect::Repaint), &settings, &environment).expect("a touch");
+    bench_on(bencher, film, Touch::new(site, radius, Effect::Repaint));
+}
+
+/// Paints over paint of which a part has let go, but that has not torn.
+#[divan::bench(args = [0.1])]
+fn repaint_loose(bencher: divan::Bencher, radius: f32) {
     bench(bencher, Effect::Repaint, radius);
+}
+
+/// Paints over the ends of a crack, and over all.
+#[divan::bench(args = [0.1, 2.0])]
+fn repaint_torn(bencher: divan::Bencher, radius: f32) {
+    let film = film();
+    let topology = &film.mesh.topology;
+    let torn = topology.all_faces().skip(5_000).find(|&f| topology.is_live(f) && topology.has_torn_edge(f));
+    let site = Site::new(torn.expect("a crack"), Vec3::ONE);
+    bench_on(bencher, film, Touch::new(site, radius, Effect::Repaint));
 }
 
 #[divan::bench]

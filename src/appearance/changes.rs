@@ -31,7 +31,8 @@ pub struct DisplayChanges {
     pub moved: bool,
     /// Whether edges tore or faces were removed: corners follow other vertices, and triangles are gone.
     pub topology: bool,
-    /// Whether vertices separated or faces were removed: other backs and other parts of the metal can be seen.
+    /// Whether vertices separated or were attached again, or faces were removed: other backs and other parts of the
+    /// metal can be seen.
     pub exposure: bool,
     /// Whether stains look different.
     pub stains: bool,
@@ -57,7 +58,7 @@ impl DisplayChanges {
     pub fn record(&mut self, step: &FilmChanges, stains: &StainFields) {
         self.moved |= step.moved;
         self.topology |= !(step.torn.is_empty() && step.removed.is_empty());
-        self.exposure |= !(step.separated.is_empty() && step.removed.is_empty());
+        self.exposure |= !(step.separated.is_empty() && step.attached.is_empty() && step.removed.is_empty());
         self.stains |= self.stains_revision != stains.revision;
         self.stains_revision = stains.revision;
     }

@@ -10,6 +10,7 @@ use crate::{
     settings::{CoatingSettings, Preset},
     sim::FilmState,
     stain::Environment,
+    touch::{Effect, Site, Touch},
 };
 
 fn aged(age: f64) -> (FilmState, FilmAppearance, Surface) {
@@ -207,6 +208,46 @@ fn part_changes(appearance: &FilmAppearance) -> Vec<&PartChanges> {
     let fronts = slots.clone().filter_map(|slot| appearance.front_changes(slot));
     let backs = slots.clone().filter_map(|slot| appearance.back_changes(slot));
     fronts.chain(backs).chain(slots.filter_map(|slot| appearance.metal_changes(slot))).collect()
+}
+
+#[test]
+fn what_new_paint_attached_again_is_shown_as_what_never_let_go() {
+    for level in [0, 2] {
+        let piece = sample::curved_plate(600, 3).unwrap();
+        let mut settings = CoatingSettings::default();
+        (settings.tearing.binding, settings.tearing.weak_factor) = (1e6, 1.0);
+        let mut film = FilmState::new(&piece.film, &settings, 3, 120).unwrap();
+        film.age_to(0.7, &settings, &Environment::default());
+        film.changes.clear();
+        let detail = Detail { level, ..Detail::default() };
+        let make = |film: &FilmState| {
+            let FilmState { mesh, forces, stains, .. } = film;
+            FilmAppearance::with_detail(&piece.film, &piece.surface, mesh, forces, stains, detail).unwrap()
+        };
+        let mut appearance = make(&film);
+        let mut changes = DisplayChanges::default();
+        changes.record(&film.changes, &film.stains);
+        changes.take();
+        let (topology, geometry) = (&film.mesh.topology, &film.mesh.geometry);
+        let middle = geometry.rest_positions.iter().sum::<Vec3>() / geometry.rest_positions.len() as f32;
+        let from_middle = |f: &FaceId| geometry.rest_centroid(topology, *f).distance_squared(middle);
+        let face = topology.all_faces().min_by(|a, b| from_middle(a).total_cmp(&from_middle(b))).unwrap();
+        let touch = Touch::new(Site::new(face, Vec3::ONE), 0.25, Effect::Repaint);
+        assert_eq!(film.touch(&touch, &settings, &Environment::default()), Ok(false), "in place");
+        assert!(film.changes.attached.len() > 5);
+        changes.record(&film.changes, &film.stains);
+        appearance.update(&film.mesh, &film.forces, &film.stains, changes.take());
+        let again = make(&film);
+        // The same triangles, whatever their order.
+        let shape = |part: &MeshPart| {
+            let mut all: Vec<_> = triangles(part).map(|t| t.map(|i| part.positions[i].map(f32::to_bits))).collect();
+            all.sort_unstable();
+            all
+        };
+        for (part, again) in parts(&appearance).into_iter().zip(parts(&again)) {
+            assert!(shape(part) == shape(again), "level {level}");
+        }
+    }
 }
 
 #[test]

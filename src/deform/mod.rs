@@ -31,6 +31,7 @@ mod pace;
 mod packed;
 mod plain;
 mod renew;
+mod repaint;
 mod rigid;
 mod sleep;
 mod solver;

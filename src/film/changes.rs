@@ -52,6 +52,8 @@ pub struct FilmChanges {
     pub removed: Vec<FaceId>,
     /// Pieces that fell: each stripped face by itself, and loose pieces.
     pub debris: Vec<Debris>,
+    /// Vertices that had separated and that new paint attached again, between two steps.
+    pub attached: Vec<VertexId>,
     /// Whether any vertex may have moved in this step.
     pub moved: bool,
 }
@@ -65,6 +67,7 @@ impl FilmChanges {
         self.duplicates.clear();
         self.removed.clear();
         self.debris.clear();
+        self.attached.clear();
         self.moved = false;
     }
 
@@ -76,6 +79,7 @@ impl FilmChanges {
         self.duplicates.append(&mut edit.duplicates);
         self.removed.append(&mut edit.removed);
         self.debris.append(&mut edit.debris);
+        self.attached.append(&mut edit.attached);
         self.moved |= edit.moved;
     }
 

@@ -47,6 +47,17 @@ const FARTHEST: f64 = (1 << 30) as f64;
 /// assert_eq!(adhesion_field(&corners, &even, None, 7), [2.0; 3]);
 /// ```
 pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, grain: Option<Grain>, seed: u64) -> Vec<f32> {
+    adhesion_at(positions, positions.iter().copied(), settings, grain, seed).collect()
+}
+
+/// Returns the same at some `places` of the film that has vertices at `positions`.
+pub(super) fn adhesion_at(
+    positions: &[Vec3],
+    places: impl Iterator<Item = Vec3>,
+    settings: &AdhesionSettings,
+    grain: Option<Grain>,
+    seed: u64,
+) -> impl Iterator<Item = f32> {
     let (min, max) =
         positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
     let longest = (max - min).max_element();
@@ -59,20 +70,18 @@ pub fn adhesion_field(positions: &[Vec3], settings: &AdhesionSettings, grain: Op
     let perlin = Perlin::new(rng.random());
     let rotation = random_rotation(&mut rng);
     let shift = Vec3::from_array(rng.random()) * 256.0;
-    let amplitude = f64::from(settings.deviation) / octaves_deviation(settings.octaves);
-    positions
-        .iter()
-        .map(|&p| {
-            let q = rotation.apply((p - min) * scale).as_dvec3() + shift.as_dvec3();
-            let (mut sum, mut gain, mut frequency) = (0.0, 1.0, 1.0);
-            for _ in 0..settings.octaves {
-                sum += gain * noise_at(&perlin, q * frequency);
-                gain *= GAIN;
-                frequency *= LACUNARITY;
-            }
-            (settings.mean + (amplitude * sum) as f32).max(0.0)
-        })
-        .collect()
+    let (mean, octaves) = (settings.mean, settings.octaves);
+    let amplitude = f64::from(settings.deviation) / octaves_deviation(octaves);
+    places.map(move |p| {
+        let q = rotation.apply((p - min) * scale).as_dvec3() + shift.as_dvec3();
+        let (mut sum, mut gain, mut frequency) = (0.0, 1.0, 1.0);
+        for _ in 0..octaves {
+            sum += gain * noise_at(&perlin, q * frequency);
+            gain *= GAIN;
+            frequency *= LACUNARITY;
+        }
+        (mean + (amplitude * sum) as f32).max(0.0)
+    })
 }
 
 /// Returns the noise at `place`; 0 where it is so far out, in cells, that no number says where in its cell it lies, and

@@ -7,9 +7,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{adhesion::adhesion_field, drawn::Drawn, forces::FilmForces};
+use super::{adhesion::adhesion_field, binding::Binding, drawn::Drawn, forces::FilmForces};
 use crate::{
-    film::{FilmMesh, HalfEdgeId},
+    film::{FilmMesh, Grain, HalfEdgeId},
     settings::{AdhesionSettings, CoatingSettings, TearingSettings},
 };
 
@@ -89,27 +89,10 @@ impl FilmForces {
     /// more (junctions of a plate at age 1 with all edges decaying, h = s, s/2, s/4: 138, 201, 210; so: 127, 153, 144).
     pub(super) fn draw_bindings(&mut self, mesh: &FilmMesh, settings: &TearingSettings) {
         let topology = &mesh.topology;
-        let per_area = self.drawn.grain.map(|grain| settings.weak_probability / (2.0 * grain.face_area()));
-        let probability = |h: HalfEdgeId, twin: HalfEdgeId| match per_area {
-            Some(per_area) => {
-                let area = |h: HalfEdgeId| mesh.geometry.rest_area_of(topology, h.face());
-                per_area * (area(h) + area(twin))
-            }
-            None => settings.weak_probability,
-        };
-        let mut rng = ChaCha8Rng::seed_from_u64(self.drawn.seed);
-        rng.set_stream(WEAK_EDGE_STREAM);
+        let mut draws = EdgeDraws::new(self, settings);
         let weak = settings.binding * settings.weak_factor;
         for h in topology.all_edges() {
-            // Border edges never tear, so no number is drawn for them.
-            let is_weak = topology.rest_twin(h).is_some_and(|twin| rng.random::<f32>() < probability(h, twin));
-            let decays = match self.drawn.grain {
-                Some(grain) => {
-                    let length = mesh.geometry.rest_lengths[h.index()] / grain.length;
-                    rng.random::<f32>() < length.sqrt()
-                }
-                None => true,
-            };
+            let Drawing { is_weak, decays } = draws.draw(mesh, h);
             if self.bindings[h.index()].decays() != decays {
                 self.bindings[h.index()].set_decays(decays);
                 self.update_decay(topology, h);
@@ -118,5 +101,80 @@ impl FilmForces {
                 self.bindings[h.index()].redraw(if is_weak { weak } else { settings.binding });
             }
         }
+    }
+
+    /// Draws the bindings of the `edges`, in ascending order, as those of a fresh film. `keep` is called with each.
+    pub(super) fn draw_fresh_bindings(
+        &mut self,
+        mesh: &FilmMesh,
+        settings: &TearingSettings,
+        edges: impl Iterator<Item = HalfEdgeId>,
+        mut keep: impl FnMut(&mut Self, HalfEdgeId, Binding),
+    ) {
+        let mut draws = EdgeDraws::new(self, settings);
+        let weak = settings.binding * settings.weak_factor;
+        let mut all = mesh.topology.all_edges();
+        for h in edges {
+            all.by_ref().take_while(|&other| other != h).for_each(|other| draws.pass_over(mesh, other));
+            let Drawing { is_weak, decays } = draws.draw(mesh, h);
+            let mut binding = Binding::new(if is_weak { weak } else { settings.binding });
+            binding.set_decays(decays);
+            keep(self, h, binding);
+        }
+    }
+}
+
+/// Random numbers of the edges of a fresh film, which are drawn in their order.
+struct EdgeDraws {
+    rng: ChaCha8Rng,
+    /// Numbers that were drawn or passed over so far.
+    count: u128,
+    grain: Option<Grain>,
+    weak_probability: f32,
+}
+
+/// What is drawn for an edge.
+struct Drawing {
+    is_weak: bool,
+    /// Whether it decays beside a crack.
+    decays: bool,
+}
+
+impl EdgeDraws {
+    fn new(forces: &FilmForces, settings: &TearingSettings) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(forces.drawn.seed);
+        rng.set_stream(WEAK_EDGE_STREAM);
+        Self { rng, count: 0, grain: forces.drawn.grain, weak_probability: settings.weak_probability }
+    }
+
+    /// Draws the next edge, `h`.
+    fn draw(&mut self, mesh: &FilmMesh, h: HalfEdgeId) -> Drawing {
+        if self.rng.get_word_pos() != self.count {
+            self.rng.set_word_pos(self.count);
+        }
+        self.pass_over(mesh, h);
+        let topology = &mesh.topology;
+        let probability = |h: HalfEdgeId, twin: HalfEdgeId| match self.grain {
+            Some(grain) => {
+                let area = |h: HalfEdgeId| mesh.geometry.rest_area_of(topology, h.face());
+                self.weak_probability / (2.0 * grain.face_area()) * (area(h) + area(twin))
+            }
+            None => self.weak_probability,
+        };
+        // Border edges never tear, so no number is drawn for them.
+        let is_weak = topology.rest_twin(h).is_some_and(|twin| self.rng.random::<f32>() < probability(h, twin));
+        let decays = match self.grain {
+            Some(grain) => {
+                let length = mesh.geometry.rest_lengths[h.index()] / grain.length;
+                self.rng.random::<f32>() < length.sqrt()
+            }
+            None => true,
+        };
+        Drawing { is_weak, decays }
+    }
+
+    /// Passes over the next edge, `h`.
+    fn pass_over(&mut self, mesh: &FilmMesh, h: HalfEdgeId) {
+        self.count += u128::from(mesh.topology.rest_twin(h).is_some()) + u128::from(self.grain.is_some());
     }
 }

@@ -32,6 +32,7 @@ mod neck_search;
 mod predictions;
 mod relief;
 mod renew;
+mod repaint;
 mod saved;
 mod scratch;
 mod separation;

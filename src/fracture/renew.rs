@@ -3,13 +3,15 @@
 use bevy_math::Vec3;
 
 use super::{
+    adhesion::adhesion_at,
     drawn::Contraction,
     forces::{FilmForces, Neck},
     predictions::Predictions,
 };
 use crate::{
     coding::Damage,
-    film::{FilmPieces, LoosePieces, Origin, PieceScratch, Renewal, Topology, VertexId},
+    film::{FaceId, FilmPieces, LoosePieces, Origin, PieceScratch, Renewal, Topology, VertexId},
+    settings::CoatingSettings,
 };
 
 impl FilmForces {
@@ -23,7 +25,7 @@ impl FilmForces {
     /// [`Damage`] if the settings that the forces were drawn with were changed by hand so that there are none such.
     pub(crate) fn renew(&mut self, renewal: &Renewal, age: f32) -> Result<(), Damage> {
         let topology = &renewal.mesh.topology;
-        let fresh = self.redrawn(&renewal.rest)?;
+        let settings = self.settings_drawn_with(&renewal.rest.geometry)?;
         let old = std::mem::take(self);
         let originals = topology.original_vertex_count();
         let kept = |v: usize| match renewal.origins[v] {
@@ -41,9 +43,12 @@ impl FilmForces {
             None if v < originals => f32::INFINITY,
             _ => age,
         });
+        let rest = &renewal.rest.geometry.rest_positions;
+        let places = vertices.clone().filter(|&v| kept(v).is_none()).map(|v| rest[original(v)]);
+        let mut fresh = adhesion_at(rest, places, &settings.adhesion, old.drawn.grain, old.drawn.seed);
         let adhesion_drawn = vertices.clone().map(|v| match kept(v) {
             Some(before) => old.adhesion_drawn[before],
-            None => fresh.adhesion_drawn[original(v)],
+            None => fresh.next().unwrap_or_default(),
         });
         let shares = if old.adhesion_share.is_empty() { 0..0 } else { vertices.clone() };
         let adhesion_share = shares.map(|v| kept(v).map_or(1.0, |before| old.adhesion_share[before]));
@@ -66,8 +71,9 @@ impl FilmForces {
             predictions: Predictions { rates: old.predictions.rates, ..Predictions::default() },
             ..old
         };
-        new.renew_faces(renewal);
-        new.renew_edges(renewal, &fresh);
+        let is_new = |f: &usize| renewal.faces[*f];
+        new.renew_faces((0..renewal.faces.len()).filter(is_new).map(FaceId::new));
+        new.renew_edges(renewal, &settings);
         new.renew_pieces(renewal);
         let is_separated = |age: &&f32| **age < f32::INFINITY;
         new.separations = new.separated_age.iter().take(originals).filter(is_separated).count() as u32;
@@ -76,29 +82,33 @@ impl FilmForces {
         Ok(())
     }
 
-    fn renew_faces(&mut self, renewal: &Renewal) {
+    /// Gives new faces the contraction of fresh paint.
+    pub(super) fn renew_faces(&mut self, faces: impl Iterator<Item = FaceId>) {
         let (gained, drawn) = (self.contraction_gained as f32, self.drawn.contraction);
-        let is_new = |f: &usize| renewal.faces[*f];
         self.contraction_spared.resize(self.contractions.len(), 0.0);
-        for f in (0..self.contractions.len()).filter(is_new) {
-            self.contractions[f] = Contraction { base: drawn - gained, share: 1.0, drawn };
-            self.contraction_spared[f] = gained;
-        }
-        for f in (0..self.loose_since.len()).filter(is_new) {
-            self.loose_since[f] = f32::INFINITY;
+        for f in faces {
+            self.contractions[f.index()] = Contraction { base: drawn - gained, share: 1.0, drawn };
+            self.contraction_spared[f.index()] = gained;
+            if let Some(since) = self.loose_since.get_mut(f.index()) {
+                *since = f32::INFINITY;
+            }
         }
     }
 
-    fn renew_edges(&mut self, renewal: &Renewal, fresh: &Self) {
+    /// Gives new edges their bindings, and has each decay by the torn edges beside it.
+    fn renew_edges(&mut self, renewal: &Renewal, settings: &CoatingSettings) {
         let topology = &renewal.mesh.topology;
+        let decay = self.binding_decay;
+        let new = topology.all_edges().filter(|&h| renewal.is_new_edge(h));
+        self.draw_fresh_bindings(&renewal.mesh, &settings.tearing, new, |forces, h, mut binding| {
+            binding.set_torn_faces(if binding.decays() { topology.torn_faces(h) } else { 0 }, decay);
+            forces.bindings[h.index()] = binding;
+        });
         for h in topology.all_edges() {
-            if renewal.is_new_edge(h) {
-                self.bindings[h.index()] = fresh.bindings[h.index()];
-            }
             let binding = &mut self.bindings[h.index()];
             let faces = if binding.decays() { topology.torn_faces(h) } else { 0 };
-            if binding.torn_faces() != faces || renewal.is_new_edge(h) {
-                binding.set_torn_faces(faces, self.binding_decay);
+            if binding.torn_faces() != faces {
+                binding.set_torn_faces(faces, decay);
             }
         }
     }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     coding::{Coder, Damage, Differences, Odds},
-    film::{FilmMesh, FilmPieces, Grain, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId},
+    film::{FilmMesh, FilmPieces, Geometry, Grain, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId},
     settings::{CoatingSettings, Rules},
 };
 
@@ -32,6 +32,14 @@ impl FilmForces {
     /// # Errors
     /// [`Damage`] if there are no settings with which they can have been drawn.
     pub(crate) fn redrawn(&self, rest: &FilmMesh) -> Result<Self, Damage> {
+        Ok(Self::new(rest, &self.settings_drawn_with(&rest.geometry)?, self.drawn.seed))
+    }
+
+    /// Returns settings with which these forces can have been drawn on a film of this geometry.
+    ///
+    /// # Errors
+    /// [`Damage`] if there are none.
+    pub(super) fn settings_drawn_with(&self, geometry: &Geometry) -> Result<CoatingSettings, Damage> {
         let mut settings = CoatingSettings::default();
         let [mean, deviation, octaves, cycles] = self.drawn.adhesion;
         let cycles = f32::from_bits(cycles);
@@ -56,8 +64,8 @@ impl FilmForces {
         if octaves > MOST_OCTAVES {
             return Err(Damage("the settings that it was drawn with"));
         }
-        let forces = Self::new(rest, &settings, self.drawn.seed);
-        if forces.drawn == self.drawn { Ok(forces) } else { Err(Damage("the settings that it was drawn with")) }
+        let drawn = Drawn::new(self.drawn.seed, geometry, &settings);
+        if drawn == self.drawn { Ok(settings) } else { Err(Damage("the settings that it was drawn with")) }
     }
 
     /// Returns whether these were drawn as `other` was.

@@ -21,7 +21,7 @@
 use super::{clock::FilmClock, scratch::StepScratch, state::FilmState};
 use crate::{
     deform::{self, FilmConstraints},
-    film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId},
+    film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId, VertexId},
     fracture::{self, FilmForces},
     settings::CoatingSettings,
     stain::{self, Environment, StainFields},
@@ -126,21 +126,62 @@ pub(crate) fn edit(
     edited
 }
 
+/// Way in which parts of a film were made new.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Renewed {
+    /// They were not: the film is as it was.
+    No,
+    /// In place: all elements have the numbers that they had. These vertices, which had separated, are attached again.
+    InPlace(Vec<VertexId>),
+    /// The film was put together again: vertices have other numbers.
+    Whole,
+}
+
 impl FilmParts<'_> {
     /// Makes `faces` new, one entry for each face of the film: those that are gone come back, cracks between them
-    /// close, and they lie on the metal at rest, clean and with the forces of fresh paint. Returns whether the film is
-    /// another one now; it stays as it is if none of these faces has anything to mend, or if its parts were changed by
-    /// hand so that no fresh film is known.
-    pub(crate) fn renew(&mut self, settings: &CoatingSettings, environment: &Environment, faces: Vec<bool>) -> bool {
+    /// close, and they lie on the metal at rest, clean and with the forces of fresh paint. The film stays as it is if
+    /// its parts were changed by hand so that no fresh film is known.
+    ///
+    /// Where nothing is torn, it takes time in proportion to the faces, and a short pass over the film; otherwise the
+    /// film is put together again.
+    pub(crate) fn renew(&mut self, settings: &CoatingSettings, environment: &Environment, faces: Vec<bool>) -> Renewed {
+        match self.renew_in_place(&faces) {
+            Renewed::No => self.renew_whole(settings, environment, faces),
+            in_place => in_place,
+        }
+    }
+
+    /// Makes `faces` new if that changes no connectivity.
+    fn renew_in_place(&mut self, faces: &[bool]) -> Renewed {
+        let Some(repaint) = self.mesh.repaint(faces) else { return Renewed::No };
+        let Some(attach) = self.forces.to_attach(self.mesh, &repaint) else { return Renewed::No };
+        if self.forces.repaint(self.mesh, &repaint, &attach).is_err() {
+            return Renewed::No;
+        }
+        for v in &attach {
+            self.mesh.geometry.positions[v.index()] = self.mesh.geometry.rest_positions[v.index()];
+        }
+        self.constraints.attach(self.mesh, &attach);
+        self.stains.repaint(self.mesh, &repaint);
+        Renewed::InPlace(attach)
+    }
+
+    /// Makes `faces` new and puts the film together again.
+    pub(crate) fn renew_whole(
+        &mut self,
+        settings: &CoatingSettings,
+        environment: &Environment,
+        faces: Vec<bool>,
+    ) -> Renewed {
         let renewal = self.mesh.renew(faces, environment.gravity);
         if self.forces.renew(&renewal, self.clock.age() as f32).is_err() {
-            return false;
+            return Renewed::No;
         }
         let forces = &*self.forces;
         self.constraints.renew(&renewal, settings, |v| forces.is_attached(v));
         self.stains.renew(&renewal, environment);
         *self.mesh = renewal.mesh;
-        true
+        Renewed::Whole
     }
 }
 

@@ -40,6 +40,13 @@ impl StainLayer {
         self.wet[i] + self.stained[i]
     }
 
+    /// Cleans and dries vertex `i`. Returns the rust that it had, in layers times square metres.
+    pub(super) fn clean(&mut self, i: usize) -> f64 {
+        let rust = f64::from(self.areas[i]) * (f64::from(self.wet[i]) + f64::from(self.stained[i]));
+        (self.wet[i], self.stained[i], self.dust[i], self.moisture[i]) = (0.0, 0.0, 0.0, 0.0);
+        rust
+    }
+
     /// Appends a vertex with the stains of vertex `i` and without an area.
     pub(super) fn duplicate(&mut self, i: usize) {
         self.wet.push(self.wet[i]);

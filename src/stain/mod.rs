@@ -26,6 +26,7 @@ mod moisture;
 mod outflow;
 mod places;
 mod renew;
+mod repaint;
 mod rust;
 mod saved;
 mod shape;

@@ -120,9 +120,11 @@ fn edit_film(
         FilmEdit::TearEdge(edge) => tear_edge(parts, &pace.settings, &pace.environment, edge),
         FilmEdit::StripFace(face) => strip_face(parts, &pace.settings, &pace.environment, face),
         FilmEdit::Touch(with, _) => match touch(parts, &pace.settings, &pace.environment, &with) {
-            Ok(Touched { changes, renewed }) => {
+            Ok(Touched { changes, repainted: is_new, renewed }) => {
                 if renewed {
                     display.bypass_change_detection().restart();
+                }
+                if is_new {
                     pace.know(&forces);
                     repainted.write(FilmRepainted::of(entity, coated_by.0, &mesh, &forces));
                 }

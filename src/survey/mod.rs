@@ -36,6 +36,7 @@ mod point;
 mod ratings;
 mod ray;
 mod shares;
+mod sides;
 mod sphere;
 mod triangle;
 mod until;
@@ -56,5 +57,7 @@ pub use shares::{FilmShares, Share};
 pub use until::{Until, UntilError, UntilWatch};
 pub use view::FilmView;
 
+#[cfg(test)]
+mod plain;
 #[cfg(test)]
 mod tests;

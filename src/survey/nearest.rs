@@ -8,6 +8,9 @@ use super::{
     view::{Face, FilmView},
 };
 
+/// Faces to each that is looked at for a first bound.
+const SPREAD: usize = 16;
+
 impl FilmView<'_> {
     /// Returns the place nearest to `point`, of the film as it is now or of the metal that removed faces have left
     /// bare, or `None` if there is none within the distance `within`.
@@ -45,10 +48,10 @@ impl FilmView<'_> {
         if !(point.is_finite() && within >= 0.0) {
             return None;
         }
-        let mut best = self.nearest_vertex(point).min(within * within);
+        let mut best = self.nearest_of_some(point).min(within * within);
         let mut found: Option<(Face, Vec3)> = None;
-        for face in self.faces() {
-            let corners = if face.live { self.now(face.corners) } else { self.at_rest(face.corners) };
+        let sides = self.sides_of_box(point, best);
+        for (face, corners) in self.places_near(&sides) {
             let [a, b, c] = corners;
             let beside = (a.min(b).min(c) - point).max(point - a.max(b).max(c)).max(Vec3::ZERO);
             if beside.length_squared() > best {
@@ -56,7 +59,7 @@ impl FilmView<'_> {
             }
             let at = triangle::nearest(point, corners);
             let distance = triangle::at(corners, at).distance_squared(point);
-            // Until one is found, what is as far away as the nearest vertex will do.
+            // Until one is found, what is as far away as the bound will do.
             let nearer = match found {
                 Some((other, _)) => distance < best || (distance == best && face.live && !other.live),
                 None => distance <= best,
@@ -76,20 +79,14 @@ impl FilmView<'_> {
         Some(self.film_point(id, corners, at, below && loose, distance))
     }
 
-    /// Returns a bound of the squared distance to the nearest place: a little more than that of the nearest vertex of
-    /// the film.
-    fn nearest_vertex(&self, point: Vec3) -> f32 {
-        // Vertices of hidden faces tell nothing.
-        if !self.hidden.is_empty() {
-            return f32::INFINITY;
-        }
-        let topology = &self.mesh.topology;
-        let vertices = topology.all_vertices().zip(&self.mesh.geometry.positions);
-        let squares = vertices.map(|(v, p)| {
-            let square = p.distance_squared(point);
-            if topology.has_faces(v) { square } else { f32::INFINITY }
-        });
-        // The same vertex as a corner of a face may be rounded to be farther away.
-        squares.fold(f32::INFINITY, f32::min) * 1.0001
+    /// Returns a bound of the squared distance to the nearest place: a little more than that of the nearest of some
+    /// corners, which are spread over the film. It only saves time, whatever they are.
+    fn nearest_of_some(&self, point: Vec3) -> f32 {
+        let corners = self.faces().step_by(SPREAD).filter(|face| face.live).map(|face| face.corners[0]);
+        let squares = corners.map(|v| self.mesh.geometry.positions[v.index()].distance_squared(point));
+        let bound = squares.fold(f32::INFINITY, f32::min).sqrt() * 1.0001;
+        // The place of the same corner in its face may be rounded to be farther away.
+        let rounding = 1e-6 * point.abs().max_element();
+        (bound + rounding) * (bound + rounding)
     }
 }

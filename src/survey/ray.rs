@@ -4,6 +4,7 @@ use bevy_math::Vec3;
 
 use super::{
     point::FilmPoint,
+    sides::NearFace,
     triangle::{self, Hit},
     view::{Face, FilmView},
 };
@@ -50,20 +51,36 @@ impl FilmView<'_> {
         let (mut film, mut metal): (Option<(Face, Hit)>, Option<(Face, Hit)>) = (None, None);
         let (mut film_at, mut metal_at, mut hidden_at) = (within, within, within);
         let mut hidden: Option<(Face, Hit)> = None;
-        for face in self.faces() {
+        let sides = self.sides_of_ray(origin, direction);
+        for NearFace { face, now, rest } in self.faces_near(&sides) {
             if !face.live {
-                take(&mut metal, &mut metal_at, face, front(origin, direction, self.at_rest(face.corners)));
+                if rest {
+                    take(&mut metal, &mut metal_at, face, front(origin, direction, self.at_rest(face.corners)));
+                }
                 continue;
             }
             let loose = face.corners.iter().any(|&v| self.has_separated(v));
-            let hit = triangle::hit(origin, direction, self.now(face.corners)).filter(|hit| loose || !hit.back);
-            take(&mut film, &mut film_at, face, hit);
-            if loose {
+            if now {
+                let hit = triangle::hit(origin, direction, self.now(face.corners)).filter(|hit| loose || !hit.back);
+                take(&mut film, &mut film_at, face, hit);
+            }
+            if loose && rest {
                 take(&mut hidden, &mut hidden_at, face, front(origin, direction, self.at_rest(face.corners)));
             }
         }
+        self.first_of(film, metal, hidden)
+    }
+
+    /// Returns which place a ray meets first, of the first hits of film, of open metal, and of metal hidden under film
+    /// that has come off.
+    pub(super) fn first_of(
+        &self,
+        film: Option<(Face, Hit)>,
+        metal: Option<(Face, Hit)>,
+        hidden: Option<(Face, Hit)>,
+    ) -> Option<FilmPoint> {
         let dip = DIP * self.mesh.geometry.mean_edge;
-        let uncovered = hidden.filter(|(_, hit)| film.is_none() || hit.distance + dip < film_at);
+        let uncovered = hidden.filter(|(_, hit)| film.is_none_or(|(_, film)| hit.distance + dip < film.distance));
         let metal = match (metal, uncovered) {
             (Some(bare), Some(under)) if under.1.distance < bare.1.distance => Some(under),
             (bare, under) => bare.or(under),
@@ -82,13 +99,13 @@ impl FilmView<'_> {
 
 /// Returns where a ray meets a triangle from the front.
 #[inline]
-fn front(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option<Hit> {
+pub(super) fn front(origin: Vec3, direction: Vec3, corners: [Vec3; 3]) -> Option<Hit> {
     triangle::hit(origin, direction, corners).filter(|hit| !hit.back)
 }
 
 /// Takes a hit that is nearer than the one so far.
 #[inline]
-fn take(nearest: &mut Option<(Face, Hit)>, at: &mut f32, face: Face, hit: Option<Hit>) {
+pub(super) fn take(nearest: &mut Option<(Face, Hit)>, at: &mut f32, face: Face, hit: Option<Hit>) {
     if let Some(hit) = hit
         && (hit.distance < *at || (nearest.is_none() && hit.distance <= *at))
     {

@@ -6,11 +6,13 @@ use bevy_math::Vec3;
 
 use super::{
     area::FilmArea,
+    covers,
     point::FilmPoint,
     shares::share,
     triangle,
     view::{Face, FilmView},
 };
+use crate::film::VertexId;
 
 /// Fewest and most parts into which the sides of a face that is partly in a sphere are cut.
 const CUTS: (f32, f32) = (4.0, 32.0);
@@ -42,61 +44,136 @@ impl FilmView<'_> {
         }
         let mut sums = Sums::default();
         let square = radius * radius;
-        for face in self.faces() {
-            let corners = if face.live { self.now(face.corners) } else { self.at_rest(face.corners) };
+        let sides = self.sides_of_box(centre, square);
+        for (face, corners) in self.places_near(&sides) {
             let [a, b, c] = corners;
             let beside = (a.min(b).min(c) - centre).max(centre - a.max(b).max(c)).max(Vec3::ZERO);
             if beside.length_squared() > square {
                 continue;
             }
-            let area = f64::from(self.mesh.geometry.rest_area_of(&self.mesh.topology, face.id));
+            let [a, b, c] = self.at_rest(face.corners);
+            let area = f64::from((b - a).cross(c - a).length_squared().sqrt() * 0.5);
             let is_in = |p: Vec3| p.distance_squared(centre) <= square;
-            let cuts = if corners.into_iter().all(is_in) { 1 } else { cuts(corners, radius) };
+            let is_whole = is_in(corners[0]) && is_in(corners[1]) && is_in(corners[2]);
+            let cuts = if is_whole { 1 } else { cuts(corners, radius) };
             let part = area / f64::from(cuts * cuts);
-            for at in middles(cuts).filter(|&at| is_in(triangle::at(corners, at))) {
-                sums.add(&self.place(face, at), part);
-            }
+            let values = self.corner_values(face);
+            for_middles(cuts, |at| {
+                if is_in(triangle::at(corners, at)) {
+                    sums.add(&values.at(at), part);
+                }
+            });
         }
         if sums.area == 0.0 {
             let place = self.nearest(centre, radius)?;
-            sums.add(&place, PI * f64::from(square));
+            sums.add(&Sample::from(&place), PI * f64::from(square));
         }
         Some(sums.finish())
     }
 
-    /// Describes a place of a face: of the film, or of the metal where it is gone.
-    fn place(&self, face: Face, at: Vec3) -> FilmPoint {
-        let Face { id, corners, live } = face;
-        if live { self.film_point(id, corners, at, false, 0.0) } else { self.metal_point(id, corners, at, 0.0) }
+    /// Returns the values at the corners of a face: of the film, or of the metal where it is gone.
+    fn corner_values(&self, face: Face) -> CornerValues {
+        let Face { corners, live, .. } = face;
+        let [a, b, c] = corners;
+        let (layer, [d, e, f]) =
+            if live { (&self.stains.film, corners) } else { (&self.stains.metal, self.metal(corners)) };
+        let held = |v: VertexId| if self.has_separated(v) { 0.0 } else { 1.0 };
+        let value = |values: &[f32], v: VertexId| values.get(v.index()).copied().unwrap_or_default();
+        let of = |values: &[f32]| Vec3::new(value(values, d), value(values, e), value(values, f));
+        CornerValues {
+            live,
+            held: Vec3::new(held(a), held(b), held(c)),
+            corrosion: if live { Vec3::ZERO } else { of(&self.stains.corrosion) },
+            wet: of(&layer.wet),
+            stained: of(&layer.stained),
+            moisture: of(&layer.moisture),
+            dust: of(&layer.dust),
+        }
+    }
+}
+
+/// What a face shows at its corners, read once for all samples of the face.
+struct CornerValues {
+    live: bool,
+    /// Whether the metal holds each corner: 1 or 0.
+    held: Vec3,
+    corrosion: Vec3,
+    wet: Vec3,
+    stained: Vec3,
+    moisture: Vec3,
+    dust: Vec3,
+}
+
+impl CornerValues {
+    /// Returns the place with these barycentric coordinates.
+    #[inline]
+    fn at(&self, barycentric: Vec3) -> Sample {
+        let blend = |values: Vec3| values.dot(barycentric);
+        let held = blend(self.held);
+        Sample {
+            bare: !self.live,
+            attached: self.live && held >= 0.5,
+            rusted: if self.live { 0.0 } else { covers::rusted(blend(self.corrosion)) },
+            wetness: blend(self.moisture),
+            dust: blend(self.dust),
+            rust_stain: covers::stained(blend(self.wet) + blend(self.stained)),
+        }
+    }
+}
+
+/// What of a place counts: see [`FilmPoint`], of which these are fields.
+pub(super) struct Sample {
+    bare: bool,
+    attached: bool,
+    rusted: f32,
+    wetness: f32,
+    dust: f32,
+    rust_stain: f32,
+}
+
+impl From<&FilmPoint> for Sample {
+    fn from(place: &FilmPoint) -> Self {
+        Self {
+            bare: place.surface.is_metal(),
+            attached: place.attached,
+            rusted: place.rusted,
+            wetness: place.wetness,
+            dust: place.dust,
+            rust_stain: place.rust_stain,
+        }
     }
 }
 
 /// Returns into how many parts to cut the sides of a triangle, so that samples lie about half a radius apart.
-fn cuts([a, b, c]: [Vec3; 3], radius: f32) -> u32 {
+pub(super) fn cuts([a, b, c]: [Vec3; 3], radius: f32) -> u32 {
     let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
     // A radius of 0 gives an infinite number or NaN, which the bounds and the conversion take care of.
     (2.0 * longest / radius).ceil().clamp(CUTS.0, CUTS.1) as u32
 }
 
-/// Returns the middles of the equal triangles into which a triangle falls when its sides are cut into `n` parts.
-fn middles(n: u32) -> impl Iterator<Item = Vec3> {
+/// Calls `with` for the middles of the equal triangles into which a triangle falls when its sides are cut into `n`
+/// parts. A function and no iterator: nested iterators are not compiled into one loop.
+#[inline]
+pub(super) fn for_middles(n: u32, mut with: impl FnMut(Vec3)) {
     let whole = n as f32;
-    (0..n).flat_map(move |j| {
-        (0..n - j).flat_map(move |i| {
-            let upright = Some(1.0 / 3.0);
-            let inverted = (i + j + 1 < n).then_some(2.0 / 3.0);
-            upright.into_iter().chain(inverted).map(move |third| {
-                let (v, w) = ((i as f32 + third) / whole, (j as f32 + third) / whole);
-                Vec3::new(1.0 - v - w, v, w)
-            })
-        })
-    })
+    let mut middle = |i: u32, j: u32, third: f32| {
+        let (v, w) = ((i as f32 + third) / whole, (j as f32 + third) / whole);
+        with(Vec3::new(1.0 - v - w, v, w));
+    };
+    for j in 0..n {
+        for i in 0..n - j {
+            middle(i, j, 1.0 / 3.0);
+            if i + j + 1 < n {
+                middle(i, j, 2.0 / 3.0);
+            }
+        }
+    }
 }
 
 /// Sums over places, each times its area.
 #[derive(Default)]
-struct Sums {
-    area: f64,
+pub(super) struct Sums {
+    pub area: f64,
     loose: f64,
     bare: f64,
     rusted: f64,
@@ -106,9 +183,9 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, place: &FilmPoint, area: f64) {
+    pub fn add(&mut self, place: &Sample, area: f64) {
         self.area += area;
-        if place.surface.is_metal() {
+        if place.bare {
             self.bare += area;
         } else if !place.attached {
             self.loose += area;
@@ -119,7 +196,7 @@ impl Sums {
         self.rust_stain += area * f64::from(place.rust_stain);
     }
 
-    fn finish(&self) -> FilmArea {
+    pub fn finish(&self) -> FilmArea {
         let of = |part: f64| share(part, self.area);
         FilmArea {
             area: self.area,
@@ -141,7 +218,8 @@ mod tests {
     #[test]
     fn middles_cover_a_triangle_evenly() {
         for n in [1, 2, 5] {
-            let all: Vec<Vec3> = middles(n).collect();
+            let mut all = Vec::new();
+            for_middles(n, |at| all.push(at));
             assert_eq!(all.len(), (n * n) as usize);
             assert!(all.iter().all(|at| at.min_element() > 0.0 && (at.element_sum() - 1.0).abs() < 1e-6));
             let mean = all.iter().sum::<Vec3>() / (n * n) as f32;

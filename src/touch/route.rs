@@ -29,23 +29,31 @@ pub(super) fn route(mesh: &FilmMesh, from: Site, to: Site) -> Vec<HalfEdgeId> {
         let along = (p - start).dot(line) / line.length_squared().max(f32::MIN_POSITIVE);
         (p - start - line * along.clamp(0.0, 1.0)).length_squared().sqrt()
     };
-    // Edges near the line by their lower end, so that the search looks at few.
-    let mut edges: Vec<(VertexId, VertexId, HalfEdgeId, f32)> = Vec::new();
+    // Edges near the line, so that the search looks at few.
+    let count = topology.original_vertex_count();
+    let (mut edges, mut starts) = (Vec::new(), vec![0usize; count + 1]);
     for h in topology.all_edges() {
         let [a, b] = [topology.origin(h), topology.target(h)].map(|v| topology.original(v));
         let astray = beside(rest(a).midpoint(rest(b)));
         if astray <= most {
             let price = mesh.geometry.rest_lengths[h.index()] + ASTRAY * astray;
-            edges.push((a, b, h, price));
-            edges.push((b, a, h, price));
+            edges.push(([a, b], h, price));
+            starts[a.index() + 1] += 1;
+            starts[b.index() + 1] += 1;
         }
     }
-    edges.sort_unstable_by_key(|&(a, b, h, _)| (a, b, h));
-    let at = |v: VertexId| {
-        let begin = edges.partition_point(|&(a, ..)| a < v);
-        edges[begin..].iter().take_while(move |&&(a, ..)| a == v)
-    };
-    let count = topology.original_vertex_count();
+    // The same by their ends: those of vertex `v` are from `starts[v]` to before `starts[v + 1]`.
+    for i in 0..count {
+        starts[i + 1] += starts[i];
+    }
+    let (mut next, mut ways) = (starts.clone(), vec![(VertexId(0), HalfEdgeId(0), 0.0f32); 2 * edges.len()]);
+    for &([a, b], h, price) in &edges {
+        for (from, to) in [(a, b), (b, a)] {
+            ways[next[from.index()]] = (to, h, price);
+            next[from.index()] += 1;
+        }
+    }
+    let at = |v: VertexId| &ways[starts[v.index()]..starts[v.index() + 1]];
     let mut prices = vec![f32::INFINITY; count];
     let mut came: Vec<Option<(VertexId, HalfEdgeId)>> = vec![None; count];
     let mut queue = std::collections::BinaryHeap::new();
@@ -59,7 +67,7 @@ pub(super) fn route(mesh: &FilmMesh, from: Site, to: Site) -> Vec<HalfEdgeId> {
         if f32::from_bits(price) > prices[v.index()] {
             continue;
         }
-        for &(_, next, h, more) in at(v) {
+        for &(next, h, more) in at(v) {
             let price = prices[v.index()] + more;
             if price < prices[next.index()] {
                 prices[next.index()] = price;

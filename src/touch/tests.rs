@@ -281,6 +281,63 @@ fn a_ruin_that_is_painted_over_is_fresh_and_ages_as_fresh_paint_does() {
     assert!(near(gone[0], gone[1], 0.05), "{gone:?}");
 }
 
+/// A plate that has let go of the metal in many places, but has torn nowhere.
+fn blistered() -> (FilmState, CoatingSettings) {
+    let mut settings = CoatingSettings::default();
+    settings.tearing.binding = 1e6;
+    settings.tearing.weak_factor = 1.0;
+    let piece = sample::plate(3_000, 7).unwrap();
+    let mut film = FilmState::new(&piece.film, &settings, 7, 200).unwrap();
+    film.age_to(0.6, &settings, &ENVIRONMENT);
+    assert!(film.forces.torn_edges == 0 && film.forces.separations > 300, "{}", film.forces.separations);
+    (film, settings)
+}
+
+#[test]
+fn paint_that_is_whole_is_painted_over_in_place() {
+    let (film, settings) = blistered();
+    let site = site_at(&film.mesh, centre(&film.mesh));
+    let touch = Touch::new(site, 0.2, Effect::Repaint);
+    let (mut in_place, mut whole) = (film.clone(), film.clone());
+    in_place.stains.film.wet.fill(0.5);
+    in_place.stains.budget.emitted = in_place.stains.wet_amount() + in_place.stains.stained_amount();
+    in_place.stains.budget.dripped = 0.0;
+    whole.stains = in_place.stains.clone();
+    assert_eq!(in_place.touch(&touch, &settings, &ENVIRONMENT), Ok(false));
+    assert_eq!(in_place.validate(), Ok(()));
+    let attached = in_place.changes.attached.len();
+    assert!(attached > 20 && in_place.changes.moved, "{attached}");
+
+    let reach = Reach::new(&whole.mesh, site, 0.2);
+    let faces = super::fields::faces_to_renew(&whole.mesh.topology, &touch, &reach);
+    whole.parts().renew_whole(&settings, &ENVIRONMENT, faces);
+    assert_eq!(in_place.mesh, whole.mesh);
+    assert_eq!(in_place.forces, whole.forces);
+    for (a, b) in [(&in_place.stains.film, &whole.stains.film), (&in_place.stains.metal, &whole.stains.metal)] {
+        assert_eq!(a, b);
+    }
+    assert!((in_place.stains.budget.dripped - whole.stains.budget.dripped).abs() < 1e-6);
+    assert!(in_place.stains.budget.dripped > 0.01);
+    let (a, b) = (&in_place.constraints, &whole.constraints);
+    assert_eq!(a.lengths(&in_place.mesh).collect::<Vec<_>>(), b.lengths(&whole.mesh).collect::<Vec<_>>());
+    for h in film.mesh.topology.all_edges() {
+        assert_eq!(a.bend_of(&in_place.mesh, h), b.bend_of(&whole.mesh, h));
+    }
+    // Saved and restored, it goes on with the same bits.
+    let mut fresh = FreshFilm::new(in_place.mesh.at_rest().unwrap());
+    let saved = fresh.write(&mut in_place).unwrap();
+    let mut again = fresh.read(&saved, true).unwrap();
+    assert_eq!(again.digest(), in_place.digest());
+    for _ in 0..40 {
+        in_place.step(&settings, &ENVIRONMENT);
+        again.step(&settings, &ENVIRONMENT);
+        assert_eq!(again.digest(), in_place.digest());
+        whole.step(&settings, &ENVIRONMENT);
+        assert_eq!(in_place.validate(), Ok(()));
+    }
+    assert_eq!(in_place.forces.separated_age, whole.forces.separated_age, "what lets go does not depend on the way");
+}
+
 #[test]
 fn new_paint_holds_at_its_own_border() {
     let (mut film, settings) = plate(3_000, 200);

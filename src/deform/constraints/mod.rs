@@ -219,6 +219,18 @@ impl FilmConstraints {
         }
     }
 
+    /// Holds `vertices` again, where the film has them.
+    pub(super) fn hold(&mut self, geometry: &Geometry, vertices: &[VertexId]) {
+        let points = self.packed.points_mut();
+        vertices.iter().for_each(|v| points.hold(v.index()));
+        points.settle();
+        for &v in vertices {
+            let position = geometry.positions[v.index()];
+            points.put(v.index(), position, position);
+            self.sleep.forget(v, position);
+        }
+    }
+
     /// Wakes `v` if it sleeps, and the constraints at it.
     pub(super) fn wake(&mut self, mesh: &FilmMesh, v: VertexId) {
         self.sleep.wake(&mut self.packed, &mut self.ledger, mesh, v);

@@ -234,6 +234,12 @@ impl Points {
         self.motions[v] = Motion::Gone;
     }
 
+    /// Has the metal hold vertex `v` again; to be followed by [`Self::settle`].
+    pub fn hold(&mut self, v: usize) {
+        self.asleep -= usize::from(self.motions[v] == Motion::Asleep);
+        self.motions[v] = Motion::Attached;
+    }
+
     /// Brings the lists of awake points into the order of memory. What is done to each is the same in any order.
     pub fn sort(&mut self) {
         for awake in self.awake.iter_mut().filter(|awake| !awake.sorted) {

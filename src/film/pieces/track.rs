@@ -104,6 +104,13 @@ impl FilmPieces {
         self.note(h.face());
     }
 
+    /// Records that `v`, which had separated from a piece that is held elsewhere, is attached again.
+    pub fn vertex_attached(&mut self, topology: &Topology, v: VertexId) {
+        if let Some(h) = topology.fan(v).next() {
+            self.piece_mut(h.face()).attached += 1;
+        }
+    }
+
     /// Records that `edge` has torn. `ends` is what the tear did to its two ends, and `is_attached` says whether a
     /// vertex is attached to the metal.
     pub fn edge_torn(

@@ -5,7 +5,7 @@ use bevy_math::Vec3;
 use super::{Tearing, edge_between, lattice};
 use crate::{
     film::{FaceId, FilmMesh, VertexId, tests::grid},
-    fracture::{aging::age_forces, forces::FilmForces},
+    fracture::{adhesion::adhesion_at, aging::age_forces, forces::FilmForces},
     settings::{CoatingSettings, Preset},
 };
 
@@ -34,6 +34,31 @@ fn a_fresh_film_that_follows_settings_is_one_that_was_made_with_them() {
         assert!(forces == made, "change {i}");
         forces.follow_settings(&mesh, &before);
         assert!(forces == FilmForces::new(&mesh, &before, 5), "change {i}, there and back");
+    }
+}
+
+#[test]
+fn what_is_drawn_for_a_part_is_what_was_drawn_there_for_all() {
+    let (positions, triangles) = grid(12, 12);
+    let mesh = FilmMesh::new(positions.clone(), &triangles).unwrap();
+    for preset in [Preset::Paper, Preset::Default] {
+        let mut settings = CoatingSettings::from(preset);
+        (settings.tearing.weak_probability, settings.scale.grain) = (0.3, 1.5);
+        let mut forces = FilmForces::new(&mesh, &settings, 5);
+        assert_eq!(forces.grain().is_some(), preset == Preset::Default);
+        let some = || mesh.topology.all_edges().filter(|h| h.0 % 7 < 3);
+        let (mut weak, mut count) = (0, 0);
+        forces.draw_fresh_bindings(&mesh, &settings.tearing, some(), |forces, h, binding| {
+            assert_eq!(forces.bindings[h.index()], binding, "{h:?} by {preset:?}");
+            weak += usize::from(binding.drawn < settings.tearing.binding);
+            count += 1;
+        });
+        assert!(count == some().count() && weak > 10 && weak < count - 10, "{weak} of {count}");
+
+        let places = positions.iter().copied().step_by(5);
+        let adhesion = adhesion_at(&positions, places, &settings.adhesion, forces.grain(), 5);
+        let all = mesh.topology.all_vertices().step_by(5);
+        assert!(adhesion.eq(all.map(|v| forces.adhesion(v))));
     }
 }
 

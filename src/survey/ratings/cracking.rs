@@ -1,18 +1,13 @@
 //! Rates cracking by ISO 4628-4.
 
-use std::{fmt, str::FromStr};
-
 use serde::{Deserialize, Serialize};
 
 use super::{
-    error::RatingError,
     size::{size_class, typical_class},
-    words::{self, MOST},
+    words::two_classes,
 };
 use crate::survey::shares::FilmShares;
 
-/// Word before the classes.
-const NAME: &str = "cracking";
 /// Lengths of visible cracks in metres per square metre up to which the quantities 0 to 4 go.
 const LIMITS: [f64; 5] = [0.0, 0.3, 1.0, 3.0, 10.0];
 
@@ -49,23 +44,6 @@ pub struct CrackingGrade {
     size: u8,
 }
 
-impl CrackingGrade {
-    /// Returns a degree of two classes, each 0 (best) to 5 (worst), or `None` for other numbers.
-    pub fn new(quantity: u8, size: u8) -> Option<Self> {
-        (quantity <= MOST && size <= MOST).then_some(Self { quantity, size })
-    }
-
-    /// Returns the class of the quantity: 0 (best) to 5 (worst).
-    pub fn quantity(self) -> u8 {
-        self.quantity
-    }
-
-    /// Returns the class of the size: 0 (best) to 5 (worst).
-    pub fn size(self) -> u8 {
-        self.size
-    }
-}
-
 impl From<&FilmShares> for CrackingGrade {
     fn from(shares: &FilmShares) -> Self {
         let visible: f64 = shares.crack_sizes[1..].iter().sum();
@@ -73,31 +51,4 @@ impl From<&FilmShares> for CrackingGrade {
     }
 }
 
-impl From<CrackingGrade> for String {
-    fn from(grade: CrackingGrade) -> Self {
-        grade.to_string()
-    }
-}
-
-impl TryFrom<String> for CrackingGrade {
-    type Error = RatingError;
-
-    fn try_from(text: String) -> Result<Self, RatingError> {
-        text.parse()
-    }
-}
-
-impl fmt::Display for CrackingGrade {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        words::write(f, NAME, self.quantity, self.size)
-    }
-}
-
-impl FromStr for CrackingGrade {
-    type Err = RatingError;
-
-    fn from_str(text: &str) -> Result<Self, RatingError> {
-        let found = words::read(text, NAME).map(|(quantity, size)| Self { quantity, size });
-        found.ok_or_else(|| RatingError { found: text.into(), expected: "cracking 0 to cracking 5, or cracking 3(S4)" })
-    }
-}
+two_classes!(CrackingGrade, "cracking");

@@ -1,18 +1,13 @@
 //! Rates flaking by ISO 4628-5.
 
-use std::{fmt, str::FromStr};
-
 use serde::{Deserialize, Serialize};
 
 use super::{
-    error::RatingError,
     size::{size_class, typical_class},
-    words::{self, MOST},
+    words::two_classes,
 };
 use crate::survey::shares::FilmShares;
 
-/// Word before the classes.
-const NAME: &str = "flaking";
 /// Shares of flaked area up to which the quantities 0 to 4 go.
 const LIMITS: [f64; 5] = [0.0, 0.001, 0.003, 0.01, 0.03];
 
@@ -44,54 +39,10 @@ pub struct FlakingGrade {
     size: u8,
 }
 
-impl FlakingGrade {
-    /// Returns a degree of two classes, each 0 (best) to 5 (worst), or `None` for other numbers.
-    pub fn new(quantity: u8, size: u8) -> Option<Self> {
-        (quantity <= MOST && size <= MOST).then_some(Self { quantity, size })
-    }
-
-    /// Returns the class of the quantity: 0 (best) to 5 (worst).
-    pub fn quantity(self) -> u8 {
-        self.quantity
-    }
-
-    /// Returns the class of the size: 0 (best) to 5 (worst).
-    pub fn size(self) -> u8 {
-        self.size
-    }
-}
-
 impl From<&FilmShares> for FlakingGrade {
     fn from(shares: &FilmShares) -> Self {
         Self { quantity: size_class(shares.gone, &LIMITS), size: typical_class(&shares.gone_sizes) }
     }
 }
 
-impl From<FlakingGrade> for String {
-    fn from(grade: FlakingGrade) -> Self {
-        grade.to_string()
-    }
-}
-
-impl TryFrom<String> for FlakingGrade {
-    type Error = RatingError;
-
-    fn try_from(text: String) -> Result<Self, RatingError> {
-        text.parse()
-    }
-}
-
-impl fmt::Display for FlakingGrade {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        words::write(f, NAME, self.quantity, self.size)
-    }
-}
-
-impl FromStr for FlakingGrade {
-    type Err = RatingError;
-
-    fn from_str(text: &str) -> Result<Self, RatingError> {
-        let found = words::read(text, NAME).map(|(quantity, size)| Self { quantity, size });
-        found.ok_or_else(|| RatingError { found: text.into(), expected: "flaking 0 to flaking 5, or flaking 3(S4)" })
-    }
-}
+two_classes!(FlakingGrade, "flaking");
