@@ -1,5 +1,15 @@
 //! Reads Bevy meshes: builds the [`Surface`] of a prop from them, and the triangles of shelters.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy::{
     math::{Vec2, Vec3, Vec4},
     mesh::{Indices, Mesh, MeshAccessError, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues},
@@ -7,6 +17,7 @@ use bevy::{
 
 use crate::{
     api::error::CoatingFault,
+    remesh::MAX_FILM_TRIANGLES,
     surface::{BuildError, Surface},
 };
 
@@ -48,9 +59,9 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
     let mut surface = Surface::default();
     let mut slots = Vec::with_capacity(meshes.len());
     let mirrored = scale.x * scale.y * scale.z < 0.0;
-    for (slot, mesh) in meshes.iter().enumerate() {
+    for (slot, mesh) in (0..).zip(meshes) {
         let positions = positions_of(mesh)?;
-        let first_vertex = surface.positions.len() as u32;
+        let first_vertex = first_of(&surface, positions.len())?;
         let first_triangle = surface.triangles.len();
         let mut corners = corners_of(mesh, positions.len())?;
         corners.scale(scale);
@@ -62,7 +73,7 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
         let here = corners.triangles.len() * 3;
         surface.positions.extend(positions.iter().map(|&p| Vec3::from_array(p) * scale));
         surface.triangles.extend(corners.triangles.iter().map(|t| t.map(|v| v + first_vertex)));
-        surface.slots.resize(surface.triangles.len(), slot as u32);
+        surface.slots.resize(surface.triangles.len(), slot);
         slots.push(SlotAttributes {
             normals: append(&mut surface.normals, corners.normals, before, here, Vec3::ZERO),
             uvs: append(&mut surface.uvs, corners.uvs, before, here, Vec2::ZERO),
@@ -72,6 +83,17 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
         });
     }
     Ok((surface, slots))
+}
+
+/// Returns the index that the first of so many more vertices of a surface gets.
+///
+/// # Errors
+/// [`BuildError::TooLarge`] if not all of them can be numbered: films of so many vertices would be too large, too.
+fn first_of(surface: &Surface, more: usize) -> Result<u32, BuildError> {
+    let first = surface.positions.len();
+    let found = first.saturating_add(more);
+    let numbers = u32::try_from(first).ok().zip(u32::try_from(found).ok());
+    numbers.map(|(first, _)| first).ok_or(BuildError::TooLarge { found, limit: MAX_FILM_TRIANGLES })
 }
 
 /// Returns the positions and triangles of a mesh.
@@ -147,9 +169,9 @@ fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], CoatingFault> {
 /// Reads the triangles of a mesh and the attributes of their corners, and checks the indices.
 fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
     let triangles = triangles_of(mesh, vertices)?;
-    for (i, triangle) in triangles.iter().enumerate() {
-        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices) {
-            return Err(BuildError::IndexOutOfRange { triangle: i as u32, vertex, vertices }.into());
+    for (triangle, corners) in (0..).zip(&triangles) {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
+            return Err(BuildError::IndexOutOfRange { triangle, vertex, vertices }.into());
         }
     }
     let spread = |attribute, name, expected, components| {
@@ -162,7 +184,8 @@ fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
         Ok(if values.is_empty() {
             Vec::new()
         } else {
-            triangles.iter().flatten().map(|&v| values[v as usize]).collect::<Vec<Vec4>>()
+            let value = |&v: &u32| values.get(v as usize).copied().unwrap_or_default();
+            triangles.iter().flatten().map(value).collect::<Vec<Vec4>>()
         })
     };
     let normals = spread(Mesh::ATTRIBUTE_NORMAL, "normals", "three floats or normalised integers", 3)?;
@@ -186,13 +209,13 @@ fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFa
     let indices = match mesh.try_indices_option() {
         Ok(Some(Indices::U32(indices))) => indices.iter().map(|&i| (i != u32::MAX).then_some(i)).collect(),
         Ok(Some(Indices::U16(indices))) => indices.iter().map(|&i| (i != u16::MAX).then_some(u32::from(i))).collect(),
-        Ok(None) => (0..vertices as u32).map(Some).collect::<Vec<_>>(),
+        Ok(None) => (0..).take(vertices).map(Some).collect::<Vec<_>>(),
         Err(_) => return Err(CoatingFault::RenderWorldOnly),
     };
     match mesh.primitive_topology() {
         // The highest index restarts strips only; in a list it is an index out of range.
         PrimitiveTopology::TriangleList => {
-            Ok(indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|i| i.unwrap_or(u32::MAX))).collect())
+            Ok(indices.as_chunks::<3>().0.iter().map(|t| t.map(|i| i.unwrap_or(u32::MAX))).collect())
         }
         PrimitiveTopology::TriangleStrip => Ok(strip_triangles(&indices)),
         other => Err(CoatingFault::NotTriangles(other)),
@@ -203,7 +226,7 @@ fn triangles_of(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, CoatingFa
 fn strip_triangles(indices: &[Option<u32>]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(indices.len());
     for strip in indices.split(Option::is_none) {
-        for (i, window) in strip.windows(3).enumerate() {
+        for (i, window) in strip.array_windows().enumerate() {
             if let [Some(a), Some(b), Some(c)] = *window {
                 triangles.push(if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
             }

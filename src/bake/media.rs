@@ -1,5 +1,15 @@
 //! Tells the media type of images.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 /// Returns the media type of an image by its first bytes, which programs get right more often than they declare it;
 /// `None` for what is no image that textures come in.
 pub fn media_type(bytes: &[u8]) -> Option<&'static str> {

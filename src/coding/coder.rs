@@ -158,9 +158,7 @@ pub(crate) trait Coder: Bits {
         }
         let mut before = None;
         for (i, x) in floats.iter_mut().enumerate() {
-            let place = different.partition_point(|&value| value < rank(x.to_bits()));
-            // There are no more than the length says.
-            let mut place = u32::try_from(place).unwrap_or(u32::MAX);
+            let mut place = number(different.partition_point(|&value| value < rank(x.to_bits())));
             self.word(&mut places, &mut place, expected(i, before).unwrap_or_default());
             before = Some(place);
             *x = f32::from_bits(unrank(*different.get(place as usize).ok_or(Damage(part))?));
@@ -170,6 +168,12 @@ pub(crate) trait Coder: Bits {
 }
 
 impl<T: Bits> Coder for T {}
+
+/// Returns a count, or a place in a list, as it is coded. Lists whose length is coded have no more than `u32::MAX`.
+#[inline]
+pub(crate) fn number(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
 
 /// Returns the rank of a float among all, given its bits: the larger the float, the larger the rank, but for NaN.
 #[inline]

@@ -34,7 +34,7 @@ mod serial;
 mod tests;
 
 pub(crate) use bits::Damage;
-pub(crate) use coder::Coder;
+pub(crate) use coder::{Coder, number};
 pub(crate) use difference::Differences;
 pub(crate) use odds::Odds;
 pub(crate) use range_coder::{Reader, Writer};

@@ -1,5 +1,15 @@
 //! Codes a film's mesh for snapshots: how it differs from the mesh at rest.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::Vec3;
 
 use super::{
@@ -62,7 +72,7 @@ impl Topology {
             self.fans.resize(originals + count, HalfEdgeId::NONE);
         }
         let (mut list, mut before) = (Differences::default(), 0);
-        for original in &mut self.originals[originals..] {
+        for original in self.originals.iter_mut().skip(originals) {
             coder.word(&mut list, &mut original.0, before);
             before = original.0;
             if original.index() >= originals {
@@ -76,14 +86,17 @@ impl Topology {
         // Cracks go on: by the number of torn edges of the face that came before.
         let mut odds = [Odds::default(); 4];
         for h in self.all_half_edges() {
-            let twin = self.twins[h.index()];
-            if twin > h && twin != HalfEdgeId::NONE {
-                let known = h.face().half_edges().map(|side| self.torn[side.index()] && side < h);
-                let beside = known.into_iter().filter(|&torn| torn).count();
-                let mut torn = self.torn[h.index()];
-                coder.flag(&mut odds[beside], &mut torn, false);
-                self.torn[h.index()] = torn;
-                self.torn[twin.index()] = torn;
+            let Some(twin) = self.rest_twin(h).filter(|&twin| twin > h) else { continue };
+            let known = h.face().half_edges().map(|side| self.is_torn(side) && side < h);
+            let beside = known.into_iter().filter(|&torn| torn).count();
+            #[expect(clippy::indexing_slicing, reason = "of three sides, none to three are torn")]
+            let odds = &mut odds[beside];
+            let mut torn = self.is_torn(h);
+            coder.flag(odds, &mut torn, false);
+            for side in [h, twin] {
+                if let Some(known) = self.torn.get_mut(side.index()) {
+                    *known = torn;
+                }
             }
         }
     }
@@ -91,40 +104,41 @@ impl Topology {
     /// Codes at which of the vertices of a place each half-edge begins: its rank among the original and its duplicates.
     fn code_origins<C: Coder>(&mut self, rest: &Self, coder: &mut C) -> Result<(), Damage> {
         let originals = self.original_vertex_count();
-        // The duplicates of each original vertex in order, all in one list.
-        let mut starts = vec![0u32; originals + 1];
         let duplicates = self.originals.get(originals..).unwrap_or_default();
+        // The rank of each vertex: 0 for originals, 1 and more for the duplicates of each in order.
+        let (mut counts, mut ranks) = (vec![0u32; originals], vec![0u32; originals]);
         for original in duplicates {
-            starts[original.index() + 1] += 1;
+            let count = counts.get_mut(original.index()).ok_or(Damage("a duplicate"))?;
+            *count += 1;
+            ranks.push(*count);
         }
-        for i in 0..originals {
-            starts[i + 1] += starts[i];
-        }
-        let (mut next, mut listed) = (starts.clone(), vec![0u32; duplicates.len()]);
-        let mut ranks = vec![0u32; self.vertex_count()];
-        for (i, original) in duplicates.iter().enumerate() {
-            let place = &mut next[original.index()];
-            listed[*place as usize] = (originals + i) as u32;
-            *place += 1;
-            ranks[originals + i] = *place - starts[original.index()];
-        }
-        let mut list = Differences::default();
-        for h in self.all_half_edges() {
-            let original = rest.origins[h.index()].index();
-            let vertices = &listed[starts[original] as usize..starts[original + 1] as usize];
-            if vertices.is_empty() {
-                continue;
+        // The duplicates of each original vertex in order, all in one list.
+        let mut listed = vec![VertexId::NONE; duplicates.len()];
+        let mut left: &mut [VertexId] = &mut listed;
+        let cut = |&count: &u32| left.split_off_mut(..count as usize).unwrap_or_default();
+        let mut groups: Vec<&mut [VertexId]> = counts.iter().map(cut).collect();
+        for ((i, original), &rank) in (originals..).zip(duplicates).zip(ranks.iter().skip(originals)) {
+            let group = groups.get_mut(original.index());
+            if let Some(place) = group.and_then(|group| group.get_mut((rank - 1) as usize)) {
+                *place = VertexId::new(i);
             }
+        }
+        let rank_of = |v: VertexId| ranks.get(v.index()).copied().unwrap_or_default();
+        let mut list = Differences::default();
+        for (h, &at_rest) in self.all_half_edges().zip(&rest.origins) {
+            let Some(vertices) = groups.get(at_rest.index()).filter(|group| !group.is_empty()) else { continue };
             // Half-edges that a bound edge joins begin at the same vertex.
             let [after, before] = [self.bound_twin(h).map(HalfEdgeId::next), self.bound_twin(h.previous())];
             let known = [after, before].into_iter().flatten().find(|&other| other < h);
-            let expected = known.map_or(0, |other| ranks[self.origins[other.index()].index()]);
-            let mut rank = ranks[self.origins[h.index()].index()];
+            let expected = known.map_or(0, |other| rank_of(self.origin(other)));
+            let mut rank = rank_of(self.origin(h));
             coder.word(&mut list, &mut rank, expected);
-            if C::READS {
-                self.origins[h.index()] = match rank.checked_sub(1) {
-                    None => VertexId::new(original),
-                    Some(i) => VertexId(*vertices.get(i as usize).ok_or(Damage("a corner"))?),
+            if C::READS
+                && let Some(origin) = self.origins.get_mut(h.index())
+            {
+                *origin = match rank.checked_sub(1) {
+                    None => at_rest,
+                    Some(i) => *vertices.get(i as usize).ok_or(Damage("a corner"))?,
                 };
             }
         }
@@ -132,18 +146,21 @@ impl Topology {
     }
 
     fn code_fates<C: Coder>(&mut self, coder: &mut C) {
-        let mut odds = [[Odds::default(); 2]; 3];
-        let mut before = 0;
+        let [mut live, mut stripped, mut fallen] = [[Odds::default(); 2]; 3];
+        let mut before = FaceFate::Live;
         self.removed_faces = 0;
         for fate in &mut self.fates {
-            let number = usize::from(*fate != FaceFate::Live) + usize::from(*fate == FaceFate::Fallen);
-            let [removed, fallen] = &mut odds[before];
-            *fate = match coder.bit(removed, number > 0) {
+            let [is_removed, has_fallen] = match before {
+                FaceFate::Live => &mut live,
+                FaceFate::Stripped => &mut stripped,
+                FaceFate::Fallen => &mut fallen,
+            };
+            *fate = match coder.bit(is_removed, *fate != FaceFate::Live) {
                 false => FaceFate::Live,
-                true if coder.bit(fallen, number > 1) => FaceFate::Fallen,
+                true if coder.bit(has_fallen, *fate == FaceFate::Fallen) => FaceFate::Fallen,
                 true => FaceFate::Stripped,
             };
-            before = usize::from(*fate != FaceFate::Live) + usize::from(*fate == FaceFate::Fallen);
+            before = *fate;
             self.removed_faces += u32::from(*fate != FaceFate::Live);
         }
     }
@@ -152,7 +169,7 @@ impl Topology {
     fn code_fans<C: Coder>(&mut self, rest: &Self, coder: &mut C) -> Result<(), Damage> {
         let mut expected = vec![HalfEdgeId::NONE; self.vertex_count()];
         for h in self.all_half_edges().filter(|h| self.is_live(h.face())) {
-            let fan = &mut expected[self.origin(h).index()];
+            let fan = expected.get_mut(self.origin(h).index()).ok_or(Damage("a corner"))?;
             // An open fan begins at its clockwise end, a closed one where it always did.
             if self.bound_twin(h).is_none()
                 || rest.fans.get(self.origin(h).index()) == Some(&h) && *fan == HalfEdgeId::NONE
@@ -178,27 +195,31 @@ fn code_positions<C: Coder>(topology: &Topology, rest: &[Vec3], positions: &mut 
     for h in topology.all_half_edges() {
         let (a, b) = (topology.origin(h).0, topology.target(h).0);
         let (low, high) = (a.min(b), a.max(b));
-        let free = known[high as usize].iter_mut().find(|known| **known == u32::MAX || **known == low);
-        free.into_iter().for_each(|free| *free = low);
+        let mut places = known.get_mut(high as usize).into_iter().flatten();
+        if let Some(free) = places.find(|known| **known == u32::MAX || **known == low) {
+            *free = low;
+        }
     }
     let mut lists: [Differences; 3] = Default::default();
     let mut odds = [Odds::default(); 2 * NEIGHBOURS + 1];
-    let mut lies = vec![true; positions.len()];
-    for i in 0..positions.len() {
-        let before = known[i].iter().map(|&n| n as usize).filter(|&n| n < i);
+    // How far each vertex has moved that came before, unless it lies where it did at rest.
+    let mut moves: Vec<Option<Vec3>> = Vec::with_capacity(positions.len());
+    for ((position, &rest), known) in positions.iter_mut().zip(rest).zip(known) {
         let (mut moved, mut count) = (Vec3::ZERO, 0);
-        for n in before.filter(|&n| !lies[n]) {
-            moved += positions[n] - rest[n];
+        for way in known.iter().filter_map(|&n| moves.get(n as usize).copied().flatten()) {
+            moved += way;
             count += 1;
         }
-        let all = known[i].iter().filter(|&&n| n != u32::MAX).count();
-        let at_rest = positions[i].to_array().map(f32::to_bits) == rest[i].to_array().map(f32::to_bits);
-        lies[i] = coder.bit(&mut odds[count + if all > count { NEIGHBOURS } else { 0 }], at_rest);
-        if lies[i] {
-            positions[i] = rest[i];
+        let all = known.iter().filter(|&&n| n != u32::MAX).count();
+        #[expect(clippy::indexing_slicing, reason = "no more than all neighbours have moved")]
+        let odds = &mut odds[count + if all > count { NEIGHBOURS } else { 0 }];
+        let at_rest = position.to_array().map(f32::to_bits) == rest.to_array().map(f32::to_bits);
+        if coder.bit(odds, at_rest) {
+            *position = rest;
+            moves.push(None);
         } else {
-            let expected = rest[i] + moved / count.max(1) as f32;
-            coder.vector(&mut lists, &mut positions[i], expected);
+            coder.vector(&mut lists, position, rest + moved / count.max(1) as f32);
+            moves.push(Some(*position - rest));
         }
     }
 }
@@ -207,7 +228,7 @@ fn code_positions<C: Coder>(topology: &Topology, rest: &[Vec3], positions: &mut 
 pub(crate) fn write_rest(mesh: &FilmMesh, mut write: impl FnMut(&[u8])) {
     let topology = &mesh.topology;
     let originals = topology.original_vertex_count();
-    write(&(originals as u32).to_le_bytes());
+    write(&topology.original_vertices.to_le_bytes());
     for p in mesh.geometry.rest_positions.iter().take(originals) {
         p.to_array().iter().for_each(|x| write(&x.to_le_bytes()));
     }

@@ -1,11 +1,21 @@
 //! Codes the forces of a film for snapshots: how they differ from those of a fresh film.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use super::{
     drawn::Drawn,
     forces::{FilmForces, Neck},
 };
 use crate::{
-    coding::{Coder, Damage, Differences, Odds},
+    coding::{Coder, Damage, Differences, Odds, number},
     film::{FilmMesh, FilmPieces, Geometry, Grain, HalfEdgeId, LoosePieces, PieceScratch, Topology, VertexId},
     settings::{CoatingSettings, Rules},
 };
@@ -90,10 +100,12 @@ impl FilmForces {
             }
         }
         let originals = topology.original_vertex_count();
-        let (ages, later) = self.separated_age.split_at_mut(originals);
+        let lists = self.separated_age.split_at_mut_checked(originals);
+        let (ages, later) = lists.ok_or(Damage("the ages at which it separated"))?;
         coder.few_floats(ages, "the ages at which it separated")?;
         // A vertex has separated before it is split.
-        coder.floats(later, |i| ages[topology.original(VertexId::new(originals + i)).index()]);
+        let age = |i: usize| ages.get(topology.original(VertexId::new(originals + i)).index());
+        coder.floats(later, |i| age(i).copied().unwrap_or_default());
         let mut lists: [Differences; 3] = Default::default();
         let mut odds = Odds::default();
         for tip in &mut self.tips {
@@ -103,11 +115,11 @@ impl FilmForces {
                 coder.vector(&mut lists, tip, bevy_math::Vec3::ZERO);
             }
         }
-        let torn = topology.all_edges().filter(|&h| topology.is_torn(h)).count() as u32;
+        let torn = topology.all_edges().filter(|&h| topology.is_torn(h)).count();
         let mut counts = Differences::default();
-        coder.word(&mut counts, &mut self.torn_edges, torn);
-        let separated = self.separated_age.iter().take(originals).filter(|age| **age < f32::INFINITY).count() as u32;
-        coder.word(&mut counts, &mut self.separations, separated);
+        coder.word(&mut counts, &mut self.torn_edges, number(torn));
+        let separated = self.separated_age.iter().take(originals).filter(|age| **age < f32::INFINITY).count();
+        coder.word(&mut counts, &mut self.separations, number(separated));
         if C::READS && self.torn_edges.max(self.separations) as usize > topology.half_edge_count().max(originals) {
             return Err(Damage("a counter"));
         }
@@ -130,7 +142,7 @@ impl FilmForces {
         self.code_bindings(fresh, topology, coder)?;
         self.code_loose(topology, coder)?;
         if C::READS {
-            self.predictions.pieces = FilmPieces::new(topology, |v| self.separated_age[v.index()] == f32::INFINITY);
+            self.predictions.pieces = FilmPieces::new(topology, |v| self.is_attached(v));
             let mut loose = LoosePieces::default();
             loose.find(topology, &mut PieceScratch::default(), |v| self.is_attached(v));
             self.loose = loose;
@@ -171,33 +183,37 @@ impl FilmForces {
         let mut lists: [Differences; 3] = Default::default();
         let mut odds = [Odds::default(); 2];
         for h in topology.all_edges() {
-            let (binding, fresh) = (&mut self.bindings[h.index()], &fresh.bindings[h.index()]);
+            let both = (self.bindings.get_mut(h.index()), fresh.bindings.get(h.index()));
+            let (Some(binding), Some(fresh)) = both else { return Err(Damage("a binding")) };
             coder.float(&mut lists[0], &mut binding.drawn, fresh.drawn);
             coder.flag(&mut odds[0], &mut binding.by_hand, false);
             coder.flag(&mut odds[1], &mut binding.decays, fresh.decays);
             let mut faces = u32::from(binding.torn_faces);
             let expected = if binding.decays { u32::from(topology.torn_faces(h)) } else { 0 };
             coder.word(&mut lists[1], &mut faces, expected);
-            binding.torn_faces = faces as u8;
+            binding.torn_faces = u8::try_from(faces).map_err(|_| Damage("a binding"))?;
             // Nothing is lost where nothing has torn for a while.
             coder.float(&mut lists[2], &mut binding.share, 1.0);
         }
-        let mut since: Vec<f32> = topology.all_edges().map(|h| self.bindings[h.index()].since).collect();
+        let edges: Vec<HalfEdgeId> = topology.all_edges().collect();
+        let mut since: Vec<f32> = edges.iter().filter_map(|h| Some(self.bindings.get(h.index())?.since)).collect();
         // A tear counts for all edges of its two faces at once.
         let mut places = vec![0u32; topology.half_edge_count()];
-        let edges: Vec<HalfEdgeId> = topology.all_edges().collect();
         let beside = |i: usize, places: &mut Vec<u32>, before: Option<u32>| {
-            if let (Some(last), Some(place)) = (i.checked_sub(1).and_then(|i| edges.get(i)), before) {
-                places[last.index()] = place;
+            let last = i.checked_sub(1).and_then(|i| places.get_mut(edges.get(i)?.index()));
+            if let (Some(last), Some(place)) = (last, before) {
+                *last = place;
             }
             let h = *edges.get(i)?;
             let sides = [Some(h), topology.rest_twin(h)].into_iter().flatten();
             let others = sides.flat_map(|side| [side.next(), side.previous()]).map(|other| topology.edge(other));
-            others.filter(|&other| other < h).map(|other| places[other.index()]).max()
+            others.filter(|&other| other < h).filter_map(|other| places.get(other.index()).copied()).max()
         };
         coder.few_floats_by(&mut since, |i, before| beside(i, &mut places, before), "the decay of a binding")?;
         for (&h, since) in edges.iter().zip(since) {
-            self.bindings[h.index()].since = since;
+            if let Some(binding) = self.bindings.get_mut(h.index()) {
+                binding.since = since;
+            }
         }
         Ok(())
     }

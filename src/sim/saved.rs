@@ -1,5 +1,15 @@
 //! Codes the state of a whole film for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use super::{clock::FilmClock, state::FilmState};
 use crate::{
     coding::{Coder, Damage, Reader, Writer},
@@ -71,7 +81,9 @@ impl FreshFilm {
         mesh.code_state(&self.mesh, coder)?;
         forces.code_state(fresh, &mesh.topology, coder)?;
         constraints.code_state(mesh, &self.mesh, |v| forces.is_attached(v), clock.dt(), coder)?;
-        stains.code_state(&self.stains, mesh, clock.age() as f32, coder)
+        #[expect(clippy::cast_possible_truncation, reason = "stains expect an age in single precision")]
+        let age = clock.age() as f32;
+        stains.code_state(&self.stains, mesh, age, coder)
     }
 }
 

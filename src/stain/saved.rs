@@ -1,6 +1,16 @@
 //! Codes the stains of a film for snapshots: how they differ from those of a fresh film. This is the only file that
 //! knows what of the stains is kept and what follows from the rest.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::{Vec3, ops};
 
 use super::{
@@ -85,7 +95,7 @@ impl StainFields {
             let expected = if touched {
                 topology.fan(v).map(|h| mesh.geometry.rest_area_of(topology, h.face())).sum::<f32>() / 3.0
             } else {
-                fresh.film.areas[original.index()]
+                fresh.film.areas.get(original.index()).copied().unwrap_or_default()
             };
             coder.float(&mut list, area, expected);
         }
@@ -114,9 +124,9 @@ impl StainFields {
     fn code_metal_dust<C: Coder>(&mut self, mesh: &FilmMesh, coder: &mut C) {
         let Self { metal, corrosion, dust_rates, duplicates, .. } = self;
         let (mut list, mut ratio) = (Differences::default(), 1.0);
-        for (i, dust) in metal.dust.iter_mut().enumerate() {
+        for ((i, dust), corrosion) in metal.dust.iter_mut().enumerate().zip(&*corrosion) {
             let v = VertexId::new(i);
-            let open = -ops::ln(1.0 - corrosion[i]);
+            let open = -ops::ln(1.0 - corrosion);
             let mut expected = 0.0;
             let mut pace = 0.0;
             if let Some(basis) = &dust_rates.basis
@@ -148,8 +158,8 @@ impl StainFields {
     fn code_catchments<C: Coder>(&mut self, coder: &mut C) -> Result<(), Damage> {
         let drains = &mut self.catchments.drains;
         let mut list = Differences::default();
-        for (i, drain) in drains.iter_mut().enumerate() {
-            coder.word(&mut list, drain, i as u32);
+        for (drain, own) in drains.iter_mut().zip(0..) {
+            coder.word(&mut list, drain, own);
         }
         coder.floats(&mut self.catchments.lengths, |_| 0.0);
         if C::READS && !ends_everywhere(&self.catchments.drains) {
@@ -165,7 +175,7 @@ impl StainFields {
             if C::READS {
                 exposure.resize(count, 0.0);
             }
-            coder.few_floats(&mut exposure[..count], "its exposure")?;
+            coder.few_floats(exposure.get_mut(..count).unwrap_or_default(), "its exposure")?;
         }
         Ok(())
     }
@@ -181,13 +191,14 @@ impl StainFields {
             self.flow.set_pull(mesh, pull, spread, into_cracks);
             (self.flow.pull, self.flow.spread, self.flow.into_cracks) = (pull, spread, into_cracks);
         }
-        let mut odds = [Odds::default(); 2];
-        for i in 0..mesh.topology.original_vertex_count() {
-            let v = VertexId::new(i);
-            let is_wet = self.film.wet[i] > 0.0 || self.metal.wet[i] > 0.0 || self.sources[i] == RustSource::Present;
-            let flows = self.flow.is_awake(v);
-            if coder.bit(&mut odds[usize::from(is_wet)], flows) {
-                self.flow.wake(v);
+        let [mut dry, mut wet] = [Odds::default(); 2];
+        let Self { film, metal, sources, flow, .. } = self;
+        let originals = (0..mesh.topology.original_vertex_count()).map(VertexId::new);
+        for (((v, film), metal), &source) in originals.zip(&film.wet).zip(&metal.wet).zip(&*sources) {
+            let is_wet = *film > 0.0 || *metal > 0.0 || source == RustSource::Present;
+            let flows = flow.is_awake(v);
+            if coder.bit(if is_wet { &mut wet } else { &mut dry }, flows) {
+                flow.wake(v);
             }
         }
         Ok(())
@@ -222,13 +233,13 @@ impl DustRates {
         let mut lists = Default::default();
         let mut odds = [Odds::default(); 2];
         let bits = |p: Vec3| p.to_array().map(f32::to_bits);
-        for (i, seen) in self.seen.iter_mut().enumerate() {
-            if coder.bit(&mut odds[0], bits(*seen) == bits(positions[i])) {
-                *seen = positions[i];
-            } else if coder.bit(&mut odds[1], bits(*seen) == bits(rests[i])) {
-                *seen = rests[i];
+        for ((seen, &position), &rest) in self.seen.iter_mut().zip(positions).zip(rests) {
+            if coder.bit(&mut odds[0], bits(*seen) == bits(position)) {
+                *seen = position;
+            } else if coder.bit(&mut odds[1], bits(*seen) == bits(rest)) {
+                *seen = rest;
             } else {
-                coder.vector_along(&mut lists, seen, positions[i], positions[i] - rests[i]);
+                coder.vector_along(&mut lists, seen, position, position - rest);
             }
         }
         let mut odds = Odds::default();
@@ -254,7 +265,7 @@ fn ends_everywhere(drains: &[u32]) -> bool {
     for start in 0..drains.len() {
         let mut at = start;
         way.clear();
-        while !ends[at] {
+        while ends.get(at) == Some(&false) {
             way.push(at);
             match drains.get(at).map(|&next| next as usize) {
                 Some(next) if next == at => break,
@@ -263,7 +274,11 @@ fn ends_everywhere(drains: &[u32]) -> bool {
                 _ => return false,
             }
         }
-        way.iter().for_each(|&place| ends[place] = true);
+        for &place in &way {
+            if let Some(end) = ends.get_mut(place) {
+                *end = true;
+            }
+        }
     }
     true
 }

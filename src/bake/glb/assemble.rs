@@ -107,7 +107,7 @@ pub fn assemble(root: &Map<String, Value>, mut binary: Vec<u8>) -> Option<Vec<u8
     bytes.extend(2u32.to_le_bytes());
     bytes.extend(length.to_le_bytes());
     for (kind, chunk) in [(b"JSON", json), (b"BIN\0", binary)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(u32::try_from(chunk.len()).ok()?.to_le_bytes());
         bytes.extend(kind);
         bytes.extend(chunk);
     }

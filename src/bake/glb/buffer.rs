@@ -142,7 +142,7 @@ impl BinaryChunk {
         let short = vertices <= usize::from(u16::MAX);
         for &index in indices {
             if short {
-                self.bytes.extend((index as u16).to_le_bytes());
+                self.bytes.extend(u16::try_from(index).unwrap_or(u16::MAX).to_le_bytes());
             } else {
                 self.bytes.extend(index.to_le_bytes());
             }

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value, json};
 
-use super::{pool::Pool, uses::Uses};
+use super::{
+    pool::Pool,
+    uses::{Uses, index},
+};
 use crate::bake::{carried::Carried, coat::Prop, model::Place};
 
 /// Name of the extension that gives a node instances.
@@ -92,7 +95,7 @@ impl Document {
 
     /// Puts a mesh at its place and on its node. A mesh without primitives is none: its place becomes free.
     pub fn put_mesh(&mut self, node: usize, index: usize, mesh: Value) {
-        if mesh["primitives"].as_array().is_none_or(Vec::is_empty) {
+        if mesh.get("primitives").and_then(Value::as_array).is_none_or(Vec::is_empty) {
             self.meshes.release(index);
             return;
         }
@@ -131,7 +134,7 @@ impl Document {
 
     /// Adds nodes to the scene that is shown first. A document without scenes gets one, of all nodes at the top.
     pub fn add_to_scene(&mut self, added: &[usize]) {
-        let scene = self.root.get("scene").and_then(Value::as_u64).unwrap_or(0) as usize;
+        let scene = self.root.get("scene").and_then(index).unwrap_or(0);
         let scenes = self.root.entry("scenes").or_insert_with(|| json!([]));
         if let Some(empty) = scenes.as_array_mut().filter(|scenes| scenes.is_empty()) {
             let children: BTreeSet<u64> = self

@@ -17,6 +17,7 @@ pub fn parts(mesh: &ModelMesh) -> Vec<(MeshPart, Slot)> {
 /// The triangles of one slot, each with corners of its own.
 fn part(surface: &Surface, slot: usize) -> MeshPart {
     let mut part = MeshPart::default();
+    let mut indices = 0..;
     for (t, &triangle) in surface.triangles.iter().enumerate() {
         if surface.slots.get(t).map_or(0, |&slot| slot as usize) != slot {
             continue;
@@ -25,7 +26,7 @@ fn part(surface: &Surface, slot: usize) -> MeshPart {
         let flat = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(Vec3::Y);
         for (k, corner) in corners.into_iter().enumerate() {
             let c = t * 3 + k;
-            part.indices.push(part.positions.len() as u32);
+            part.indices.extend(indices.next());
             part.positions.push(corner.to_array());
             part.normals.push(surface.normals.get(c).copied().unwrap_or(flat).to_array());
             part.uvs.extend(surface.uvs.get(c).map(|uv| uv.to_array()));

@@ -158,16 +158,16 @@ impl<'a> Materials<'a> {
             return;
         }
         let pbr = &own["pbrMetallicRoughness"];
-        let opaque = pbr["baseColorFactor"][3].as_f64().unwrap_or(1.0);
+        let opaque = pbr.pointer("/baseColorFactor/3").and_then(Value::as_f64).unwrap_or(1.0);
         if opaque != 1.0 {
-            let mut factor = material["pbrMetallicRoughness"]["baseColorFactor"].clone();
+            let mut factor = material.pointer("/pbrMetallicRoughness/baseColorFactor").cloned().unwrap_or_default();
             if let Some(alpha) = factor.get_mut(3) {
                 *alpha = opaque.into();
             }
             set_in(material, &[("baseColorFactor", factor)]);
         }
         let mut info = pbr["baseColorTexture"].clone();
-        if let Some(texture) = index(&info["index"]) {
+        if let Some(texture) = info.get("index").and_then(index) {
             set(&mut info, &[("index", self.mask_texture(texture).into())]);
             set_in(material, &[("baseColorTexture", info)]);
         }

@@ -5,6 +5,16 @@
 //! Everything else stays, at its index. Props without a document get a node each. The appearance is made by
 //! [`crate::appearance`], as in a running game; stains come into it by [`super::textures`].
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 mod assemble;
 mod buffer;
 mod document;
@@ -56,6 +66,7 @@ pub fn aged_glb(baked: &mut Baked, stains: StainOutput) -> Result<Vec<u8>, BakeE
         let total: f64 = areas.clone().sum();
         let all = props.iter().zip(films.iter()).zip(appearances.iter().zip(&bare)).zip(areas);
         all.map(|(((prop, film), appearance), area)| {
+            #[expect(clippy::cast_possible_truncation, reason = "a share needs no more than single precision")]
             let output = stains.for_share((area / total) as f32);
             dress(prop, film, appearance, library, &mut textures, output)
         })

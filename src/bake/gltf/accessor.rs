@@ -8,7 +8,7 @@ use super::{
 
 /// Most elements an accessor may have. Far above any prop; an accessor without a buffer view could claim
 /// 2^53 elements in a file of 200 bytes.
-const MAX_ELEMENTS: u64 = 1 << 24;
+const MAX_ELEMENTS: usize = 1 << 24;
 
 /// Component types of glTF 2.0, section 3.6.2.2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,27 +45,32 @@ impl Component {
     /// The number at the start of `bytes`, which holds at least [`Self::size`].
     fn float(self, bytes: &[u8], normalized: bool) -> f32 {
         let (value, most) = match self {
-            Self::I8 => (f32::from(bytes[0] as i8), 127.0),
-            Self::U8 => (f32::from(bytes[0]), 255.0),
-            Self::I16 => (f32::from(i16::from_le_bytes([bytes[0], bytes[1]])), 32767.0),
-            Self::U16 => (f32::from(u16::from_le_bytes([bytes[0], bytes[1]])), 65535.0),
+            Self::I8 => (f32::from(i8::from_le_bytes(first(bytes))), 127.0),
+            Self::U8 => (f32::from(u8::from_le_bytes(first(bytes))), 255.0),
+            Self::I16 => (f32::from(i16::from_le_bytes(first(bytes))), 32767.0),
+            Self::U16 => (f32::from(u16::from_le_bytes(first(bytes))), 65535.0),
             Self::U32 => return self.index(bytes) as f32,
-            Self::F32 => return f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+            Self::F32 => return f32::from_le_bytes(first(bytes)),
         };
         if normalized { (value / most).max(-1.0) } else { value }
     }
 
     fn index(self, bytes: &[u8]) -> u32 {
         match self {
-            Self::U8 => u32::from(bytes[0]),
-            Self::U16 => u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
-            _ => u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+            Self::U8 => u32::from(u8::from_le_bytes(first(bytes))),
+            Self::U16 => u32::from(u16::from_le_bytes(first(bytes))),
+            _ => u32::from_le_bytes(first(bytes)),
         }
     }
 
     fn is_index(self) -> bool {
         matches!(self, Self::U8 | Self::U16 | Self::U32)
     }
+}
+
+/// The first `N` bytes; zeros if there are fewer.
+fn first<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    bytes.first_chunk().copied().unwrap_or([0; N])
 }
 
 impl Container<'_> {
@@ -123,7 +128,8 @@ impl Container<'_> {
         }
         reader.collect([0.0; N], |bytes| {
             let size = reader.component.size();
-            std::array::from_fn(|i| reader.component.float(&bytes[i * size..], reader.accessor.normalized))
+            let from = |i: usize| bytes.get(i * size..).unwrap_or_default();
+            std::array::from_fn(|i| reader.component.float(from(i), reader.accessor.normalized))
         })
     }
 
@@ -155,6 +161,8 @@ struct Reader<'a> {
     index: usize,
     what: &'static str,
     component: Component,
+    /// Number of elements.
+    count: usize,
     /// Components an element.
     width: usize,
 }
@@ -172,11 +180,11 @@ impl<'a> Reader<'a> {
             "VEC4" => 4,
             other => return Err(fail(format!("its type is {other}"))),
         };
-        if accessor.count > MAX_ELEMENTS {
+        let Some(count) = usize::try_from(accessor.count).ok().filter(|&count| count <= MAX_ELEMENTS) else {
             let what = format!("accessor {index}");
-            return Err(GltfError::TooMany { what, found: accessor.count, limit: MAX_ELEMENTS });
-        }
-        Ok(Self { container, accessor, index, what, component, width })
+            return Err(GltfError::TooMany { what, found: accessor.count, limit: MAX_ELEMENTS as u64 });
+        };
+        Ok(Self { container, accessor, index, what, component, count, width })
     }
 
     fn fail(&self, cause: String) -> GltfError {
@@ -186,7 +194,7 @@ impl<'a> Reader<'a> {
     /// Reads all elements; those that no buffer view gives are `zero`.
     fn collect<T: Copy>(&self, zero: T, read: impl Fn(&[u8]) -> T) -> Result<Vec<T>, GltfError> {
         let from = format!("accessor {}", self.index);
-        let count = self.accessor.count as usize;
+        let count = self.count;
         let size = self.component.size() * self.width;
         let mut elements = match self.accessor.buffer_view {
             Some(view) => {
@@ -197,13 +205,12 @@ impl<'a> Reader<'a> {
             None => vec![zero; count],
         };
         let Some(sparse) = &self.accessor.sparse else { return Ok(elements) };
-        if sparse.count > self.accessor.count {
+        let Some(changed) = usize::try_from(sparse.count).ok().filter(|&changed| changed <= count) else {
             return Err(self.fail(format!("{} of its {count} elements are replaced", sparse.count)));
-        }
+        };
         let component = Component::new(sparse.indices.component_type)
             .filter(|component| component.is_index())
             .ok_or_else(|| self.fail("its sparse indices are no unsigned integers".into()))?;
-        let changed = sparse.count as usize;
         let places = self.container.view(sparse.indices.buffer_view, &from)?;
         let places = self.slices(places, sparse.indices.byte_offset, None, component.size(), changed)?;
         let values = self.container.view(sparse.values.buffer_view, &from)?;
@@ -239,7 +246,8 @@ impl<'a> Reader<'a> {
             let what = format!("accessor {}", self.index);
             return Err(GltfError::Truncated { what, needed, found: bytes.len() as u64 });
         }
-        let (offset, stride) = (offset as usize, stride as usize);
-        Ok((0..count).map(move |i| &bytes[offset + i * stride..][..size]))
+        let bytes = usize::try_from(offset).ok().and_then(|offset| bytes.get(offset..)).unwrap_or_default();
+        let elements = bytes.chunks(usize::try_from(stride).unwrap_or(usize::MAX));
+        Ok(elements.take(count).map(move |element| element.get(..size).unwrap_or_default()))
     }
 }

@@ -66,8 +66,8 @@ fn used_sets(material: &Value) -> Vec<usize> {
             used.push(set);
         }
     };
-    let first = [&material["pbrMetallicRoughness"]["baseColorTexture"], &material["normalTexture"]];
-    first.into_iter().filter_map(Value::as_object).for_each(&mut add);
+    let first = ["/pbrMetallicRoughness/baseColorTexture", "/normalTexture"].map(|place| material.pointer(place));
+    first.into_iter().flatten().filter_map(Value::as_object).for_each(&mut add);
     visit(material, &mut add);
     used
 }

@@ -97,41 +97,42 @@ fn fill(placed: &mut Placed, primitives: &[Data], transform: DMat4, node: &str) 
     let space = Space::new(transform);
 
     // Primitives often share their vertices: each set of positions is taken once.
-    let sets = PositionSets::new(primitives);
+    let sets = PositionSets::new(primitives, node)?;
     let positions: Vec<DVec3> = sets.positions(primitives).map(|p| space.point(p)).collect();
     (surface.positions, placed.mesh.origin) = centred(&positions);
 
     let some = |has: fn(&Data) -> bool| primitives.iter().any(has);
     let (normals, tangents) = (some(|p| p.normals.is_some()), some(|p| p.tangents.is_some()));
     let (uvs, uvs_1, colors) = (some(|p| p.uvs.is_some()), some(|p| p.uvs_1.is_some()), some(|p| p.colors.is_some()));
-    for (slot, primitive) in primitives.iter().enumerate() {
+    for (slot, primitive) in (0..).zip(primitives) {
         for &triangle in &primitive.triangles {
             let local = if space.mirrored { [triangle[0], triangle[2], triangle[1]] } else { triangle };
             let corners = local.map(|v| v as usize);
             let vertices = local.map(|v| sets.vertex(primitive.position, v));
-            let points = vertices.map(|v| surface.positions[v as usize]);
+            let points = vertices.map(|v| surface.positions.get(v as usize).copied().unwrap_or(Vec3::NAN));
             // Vertices that no triangle uses may be anywhere.
-            if let Some(i) = points.iter().position(|p| !p.is_finite()) {
-                return Err(GltfError::NonFinite { node: node.into(), vertex: vertices[i] as usize });
+            if let Some((vertex, _)) = vertices.into_iter().zip(points).find(|(_, p)| !p.is_finite()) {
+                return Err(GltfError::NonFinite { node: node.into(), vertex: vertex as usize });
             }
             let flat = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or(Vec3::Y);
             surface.triangles.push(vertices);
-            surface.slots.push(slot as u32);
+            surface.slots.push(slot);
             if normals {
-                surface.normals.extend(corners.map(|v| match &primitive.normals {
-                    Some(normals) => space.normal(normals[v].into()).unwrap_or(flat),
+                surface.normals.extend(corners.map(|v| match primitive.normals.as_ref().and_then(|n| n.get(v)) {
+                    Some(&normal) => space.normal(normal.into()).unwrap_or(flat),
                     None => flat,
                 }));
             }
             if tangents {
-                surface.tangents.extend(corners.map(|v| match &primitive.tangents {
-                    Some(tangents) => space.tangent(tangents[v].into(), flat),
+                surface.tangents.extend(corners.map(|v| match primitive.tangents.as_ref().and_then(|t| t.get(v)) {
+                    Some(&tangent) => space.tangent(tangent.into(), flat),
                     None => flat.any_orthonormal_vector().extend(1.0),
                 }));
             }
             // Coordinates and colours that are no numbers would spread into the whole film.
             let uv = |uvs: &Option<Rc<[[f32; 2]]>>, v: usize| {
-                uvs.as_ref().map(|uvs| Vec2::from(uvs[v])).filter(|uv| uv.is_finite()).unwrap_or_default()
+                let uv = uvs.as_ref().and_then(|uvs| uvs.get(v)).copied().map(Vec2::from);
+                uv.filter(|uv| uv.is_finite()).unwrap_or_default()
             };
             if uvs {
                 surface.uvs.extend(corners.map(|v| uv(&primitive.uvs, v)));
@@ -140,7 +141,7 @@ fn fill(placed: &mut Placed, primitives: &[Data], transform: DMat4, node: &str) 
                 surface.uvs_1.extend(corners.map(|v| uv(&primitive.uvs_1, v)));
             }
             if colors {
-                let color = |v: usize| primitive.colors.as_ref().map(|colors| Vec4::from(colors[v]));
+                let color = |v: usize| Some(Vec4::from(*primitive.colors.as_ref()?.get(v)?));
                 let valid = |c: Vec4| c.is_finite().then(|| c.clamp(Vec4::ZERO, Vec4::ONE));
                 surface.colors.extend(corners.map(|v| color(v).and_then(valid).unwrap_or(Vec4::ONE)));
             }
@@ -189,7 +190,7 @@ fn read_primitive(
     let vertices = positions.len();
     let list = match primitive.indices {
         Some(indices) => cache.indices(indices)?,
-        None => (0..vertices as u32).collect(),
+        None => (0..).take(vertices).collect(),
     };
     if let Some(&found) = list.iter().find(|&&v| v as usize >= vertices) {
         return Err(GltfError::IndexOutOfRange { mesh, primitive: index, index: found, vertices });
@@ -239,7 +240,8 @@ struct PositionSet {
 
 impl PositionSets {
     /// Takes whole sets, but for those that primitives use less than half of: many meshes may share one large set.
-    fn new(primitives: &[Data]) -> Self {
+    /// `node` is named where there are more than can be numbered.
+    fn new(primitives: &[Data], node: &str) -> Result<Self, GltfError> {
         let mut sets: BTreeMap<usize, PositionSet> = BTreeMap::new();
         let mut order = Vec::new();
         for (i, primitive) in primitives.iter().enumerate() {
@@ -258,21 +260,27 @@ impl PositionSets {
                 }
             }
         }
-        let mut base = 0;
+        let mut end = 0;
         for accessor in order {
-            let Some(set) = sets.get_mut(&accessor) else { continue };
-            set.base = base;
-            let all = set.places.len();
-            set.used = (0..all as u32).filter(|&v| set.places[v as usize] == 0).collect();
-            if set.used.len() * 2 >= all {
-                (set.used, set.places) = (Vec::new(), Vec::new());
-                base += all as u32;
-            } else {
-                set.used.iter().enumerate().for_each(|(place, &v)| set.places[v as usize] = place as u32);
-                base += set.used.len() as u32;
+            let Some(PositionSet { base, used, places, .. }) = sets.get_mut(&accessor) else { continue };
+            let all = places.len();
+            *used = (0..).zip(places.iter()).filter(|(_, place)| **place == 0).map(|(v, _)| v).collect();
+            let taken = if used.len() * 2 >= all { all } else { used.len() };
+            if taken == all {
+                (*used, *places) = (Vec::new(), Vec::new());
             }
+            for (place, &v) in (0..).zip(used.iter()) {
+                if let Some(own) = places.get_mut(v as usize) {
+                    *own = place;
+                }
+            }
+            *base = u32::try_from(end).map_err(|_| {
+                let what = format!("node {node}");
+                GltfError::TooMany { what, found: end as u64, limit: u32::MAX.into() }
+            })?;
+            end += taken;
         }
-        Self(sets)
+        Ok(Self(sets))
     }
 
     /// Positions of all sets, in the order of the primitives that have them first.
@@ -289,7 +297,7 @@ impl PositionSets {
     /// Place of vertex `v` of the set of an accessor.
     fn vertex(&self, accessor: usize, v: u32) -> u32 {
         let Some(set) = self.0.get(&accessor) else { return 0 };
-        set.base + set.places.get(v as usize).copied().unwrap_or(v)
+        set.base.saturating_add(set.places.get(v as usize).copied().unwrap_or(v))
     }
 }
 
@@ -297,15 +305,15 @@ impl PositionSets {
 fn triangles(list: &[u32], mode: u32) -> Vec<[u32; 3]> {
     match mode {
         5 => list
-            .windows(3)
+            .array_windows()
             .enumerate()
-            .map(|(i, v)| if i % 2 == 0 { [v[0], v[1], v[2]] } else { [v[0], v[2], v[1]] })
+            .map(|(i, &[a, b, c])| if i % 2 == 0 { [a, b, c] } else { [a, c, b] })
             .collect(),
         6 => match list.split_first() {
-            Some((&first, rest)) => rest.windows(2).map(|v| [v[0], v[1], first]).collect(),
+            Some((&first, rest)) => rest.array_windows().map(|&[a, b]| [a, b, first]).collect(),
             None => Vec::new(),
         },
-        _ => list.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect(),
+        _ => list.as_chunks().0.to_vec(),
     }
 }
 

@@ -4,6 +4,16 @@
 //! what ageing does not change, and extensions nobody here knows, survive. The scene's meshes are moved into scene
 //! space. Skinned and morphed meshes are taken in their bind pose, with a warning.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 mod accessor;
 mod cache;
 mod container;

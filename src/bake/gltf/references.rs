@@ -54,7 +54,7 @@ pub fn check(container: &Container) -> Result<(), GltfError> {
             checks.one(&from, &sampler["output"], Kind::Accessor)?;
         }
         for channel in animation["channels"].as_array().into_iter().flatten() {
-            checks.one(&from, &channel["target"]["node"], Kind::Node)?;
+            checks.one(&from, channel.pointer("/target/node").unwrap_or(&Value::Null), Kind::Node)?;
             in_range(&from, "sampler", &channel["sampler"], samplers.len())?;
         }
     }

@@ -35,7 +35,7 @@ pub fn read_meshes(container: &Container, model: &mut Model) -> Result<(), GltfE
     let mut stack: Vec<_> = roots.iter().rev().map(|&root| (root, DMat4::IDENTITY)).collect();
     while let Some((index, parent)) = stack.pop() {
         let node = lookup(&document.nodes, index, "node", "the scene")?;
-        if std::mem::replace(&mut visited[index], true) {
+        if visited.get_mut(index).is_none_or(|visited| std::mem::replace(visited, true)) {
             return Err(GltfError::NotATree(index));
         }
         let transform = parent * local_transform(node);
@@ -133,7 +133,7 @@ fn roots(nodes: &[Node]) -> Vec<usize> {
             *is_child = true;
         }
     }
-    (0..nodes.len()).filter(|&i| !is_child[i]).collect()
+    is_child.iter().enumerate().filter(|(_, is_child)| !**is_child).map(|(i, _)| i).collect()
 }
 
 /// In double precision: what lies far from the origin is moved near it later.

@@ -111,12 +111,14 @@ impl<'a> Materials<'a> {
             Some((material, folder)) => self.convert(&material, &folder, uvs),
             None => {
                 self.undefined.push(name.clone());
-                let mut paint = self.library.materials[index].take();
-                paint["name"] = name.as_str().into();
+                let mut paint = self.library.materials.get_mut(index).map(Value::take).unwrap_or_default();
+                insert(&mut paint, "name", Some(name.as_str().into()));
                 paint
             }
         };
-        self.library.materials[index] = material;
+        if let Some(plain) = self.library.materials.get_mut(index) {
+            *plain = material;
+        }
         index
     }
 
@@ -156,7 +158,7 @@ impl<'a> Materials<'a> {
         insert(&mut pbr, "baseColorTexture", base_map);
         let mut fields = json!({ "name": material.name, "doubleSided": true, "pbrMetallicRoughness": pbr });
         if masked || opacity < 1.0 {
-            fields["alphaMode"] = if masked { "MASK" } else { "BLEND" }.into();
+            insert(&mut fields, "alphaMode", Some(if masked { "MASK" } else { "BLEND" }.into()));
         }
         let mut normals = self.map("norm", &material.normal_map, folder, uvs);
         if let (None, Some(bump)) = (&normals, &material.bump_map) {
@@ -168,13 +170,13 @@ impl<'a> Materials<'a> {
         }
         let strength = material.normal_map.as_ref().or(material.bump_map.as_ref()).map_or(1.0, |map| map.strength);
         if let (Some(map), true) = (&mut normals, strength.is_finite() && strength != 1.0) {
-            map["scale"] = strength.into();
+            insert(map, "scale", Some(strength.into()));
         }
         insert(&mut fields, "normalTexture", normals);
         let emission_map = self.map("map_Ke", &material.emission_map, folder, uvs);
         let emission = own(material.emission).filter(|color| *color != [0.0; 3]);
         if let Some(color) = emission.or(emission_map.as_ref().map(|_| [1.0; 3])) {
-            fields["emissiveFactor"] = json!(color);
+            insert(&mut fields, "emissiveFactor", Some(json!(color)));
         }
         insert(&mut fields, "emissiveTexture", emission_map);
         fields
@@ -204,14 +206,16 @@ impl<'a> Materials<'a> {
         let mut texture = json!({ "source": image });
         if map.clamp {
             let sampler = json!({ "wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE });
-            texture["sampler"] = position_of(&mut self.library.samplers, sampler).into();
+            let sampler = position_of(&mut self.library.samplers, sampler);
+            insert(&mut texture, "sampler", Some(sampler.into()));
         }
         let mut info = json!({ "index": position_of(&mut self.library.textures, texture) });
         let ([u, v], [su, sv]) = (map.offset, map.scale);
         if (map.offset, map.scale) != ([0.0; 2], [1.0; 2]) && [u, v, su, sv].iter().all(|x| x.is_finite()) {
             const NAME: &str = "KHR_texture_transform";
             // v counts upward there, downward here.
-            info["extensions"] = json!({ NAME: { "offset": [u, 1.0 - v - sv], "scale": [su, sv] } });
+            let transform = json!({ NAME: { "offset": [u, 1.0 - v - sv], "scale": [su, sv] } });
+            insert(&mut info, "extensions", Some(transform));
             if self.library.extensions_used.is_empty() {
                 self.library.extensions_used.push(NAME.into());
             }

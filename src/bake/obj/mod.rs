@@ -4,6 +4,16 @@
 //! Crates for this take whatever index a file holds on trust, cut every face like a convex one, or do not say in which
 //! line a fault is (ARCHITECTURE.md), so the few statements that matter are read here.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 mod error;
 mod materials;
 mod mtl;

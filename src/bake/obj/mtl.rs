@@ -132,14 +132,15 @@ fn map(text: &str) -> Result<MtlMap, String> {
             values.push(word);
             after = next;
         }
+        let first = values.first().copied().unwrap_or_default();
         let pair = |default: f32| -> Result<[f32; 2], String> {
-            Ok([float(values[0])?, values.get(1).map_or(Ok(default), |v| float(v))?])
+            Ok([float(first)?, values.get(1).map_or(Ok(default), |v| float(v))?])
         };
         match option {
             "-o" => map.offset = pair(0.0)?,
             "-s" => map.scale = pair(1.0)?,
-            "-bm" => map.strength = float(values[0])?,
-            "-clamp" => map.clamp = values[0] == "on",
+            "-bm" => map.strength = float(first)?,
+            "-clamp" => map.clamp = first == "on",
             _ => {}
         }
         rest = after;

@@ -22,7 +22,8 @@ pub fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
         return fan(0).collect();
     }
     let Some(flat) = flattened(corners) else { return fan(0).collect() };
-    let is_sound = |[a, b, c]: [usize; 3]| is_sound([flat[a], flat[b], flat[c]]);
+    let place = |i: usize| flat.get(i).copied().unwrap_or_default();
+    let is_sound = |triangle: [usize; 3]| is_sound(triangle.map(place));
     let tried = if n <= MOST_FANS { n } else { 1 };
     if let Some(first) = (0..tried).find(|&first| fan(first).all(is_sound)) {
         return fan(first).collect();
@@ -38,7 +39,7 @@ pub fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
     // Ear clipping may wind the other way round, and leaves out corners on straight sides, where neighbours have
     // vertices.
     for triangle in &mut triangles {
-        if area(triangle.map(|i| flat[i])) < 0.0 {
+        if area(triangle.map(place)) < 0.0 {
             triangle.swap(1, 2);
         }
     }
@@ -51,7 +52,7 @@ pub fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
 fn flattened(corners: &[DVec3]) -> Option<Vec<DVec2>> {
     let origin = corners.first().copied().filter(|_| corners.iter().all(|p| p.is_finite()))?;
     let spokes: Vec<DVec3> = corners.iter().map(|&p| p - origin).collect();
-    let normal = spokes.windows(2).map(|pair| pair[0].cross(pair[1])).sum::<DVec3>().try_normalize()?;
+    let normal = spokes.array_windows().map(|[a, b]| a.cross(*b)).sum::<DVec3>().try_normalize()?;
     let (x, y) = normal.any_orthonormal_pair();
     Some(spokes.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
 }
@@ -69,23 +70,32 @@ fn is_sound(triangle @ [a, b, c]: [DVec2; 3]) -> bool {
 /// Divides the triangles beside which corners were left out.
 fn take_up_left_out(triangles: &mut Vec<[usize; 3]>, count: usize) {
     let mut used = vec![false; count];
-    triangles.iter().flatten().for_each(|&i| used[i] = true);
+    for &i in triangles.iter().flatten() {
+        if let Some(used) = used.get_mut(i) {
+            *used = true;
+        }
+    }
     let Some(start) = used.iter().position(|&used| used) else { return };
     for step in 1..count {
         let i = (start + step) % count;
-        if used[i] {
+        let is_used = |i: usize| used.get(i) == Some(&true);
+        if is_used(i) {
             continue;
         }
         let before = (i + count - 1) % count;
-        let Some(after) = (1..count).map(|k| (i + k) % count).find(|&k| used[k]) else { return };
-        let beside = triangles.iter().enumerate().find_map(|(t, triangle)| {
-            let side = (0..3).find(|&k| triangle[k] == before && triangle[(k + 1) % 3] == after)?;
-            Some((t, triangle[(side + 2) % 3]))
+        let Some(after) = (1..count).map(|k| (i + k) % count).find(|&k| is_used(k)) else { return };
+        let beside = triangles.iter_mut().find_map(|triangle| {
+            let [a, b, c] = *triangle;
+            let sides = [([a, b], c), ([b, c], a), ([c, a], b)];
+            let (_, apex) = sides.into_iter().find(|&(side, _)| side == [before, after])?;
+            Some((triangle, apex))
         });
-        if let Some((t, apex)) = beside {
-            triangles[t] = [before, i, apex];
+        if let Some((triangle, apex)) = beside {
+            *triangle = [before, i, apex];
             triangles.push([i, after, apex]);
-            used[i] = true;
+            if let Some(used) = used.get_mut(i) {
+                *used = true;
+            }
         }
     }
 }

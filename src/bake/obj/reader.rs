@@ -98,13 +98,14 @@ impl Reader {
         let slot = match self.slot_of.get(&self.current) {
             Some(&slot) => slot,
             None => {
-                let slot = self.materials.len() as u32;
+                let slot = u32::try_from(self.materials.len()).map_err(|_| "there are too many materials")?;
                 self.materials.push(self.current.clone());
                 self.slot_of.insert(self.current.clone(), slot);
                 slot
             }
         };
-        self.triangles.extend(triangulate(&places).into_iter().map(|triangle| triangle.map(|i| corners[i])));
+        let corner = |i: usize| corners.get(i).copied().unwrap_or_default();
+        self.triangles.extend(triangulate(&places).into_iter().map(|triangle| triangle.map(corner)));
         self.slots.resize(self.triangles.len(), slot);
         Ok(())
     }
@@ -162,7 +163,9 @@ impl Reader {
     fn slots(&self, colors: bool, folder: Option<&Path>, images: Images, model: &mut Model) -> Vec<Slot> {
         let mut uvs = vec![false; self.materials.len()];
         for (&slot, triangle) in self.slots.iter().zip(&self.triangles) {
-            uvs[slot as usize] |= triangle.iter().any(|corner| corner.1.is_some());
+            if let Some(uvs) = uvs.get_mut(slot as usize) {
+                *uvs |= triangle.iter().any(|corner| corner.1.is_some());
+            }
         }
         let mut materials = Materials::new(folder, images);
         self.libraries.iter().for_each(|names| materials.define(names));

@@ -1,8 +1,18 @@
 //! Codes the constraints of a film for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use super::FilmConstraints;
 use crate::{
-    coding::{Coder, Damage},
+    coding::{Coder, Damage, number},
     deform::{
         bend::bend_points,
         curl::CurlField,
@@ -59,7 +69,7 @@ impl FilmConstraints {
                 length,
                 bend: place(pushes, &bend_points(topology, h)),
                 may: [carries, bends],
-                start: geometry.rest_dihedrals[h.index()],
+                start: geometry.rest_dihedrals.get(h.index()).copied().unwrap_or_default(),
                 share: share.map_or(1.0, |curl| curl.share(topology, h)),
                 region: packed.region_index(topology, h),
                 was: topology.is_torn(h) || !topology.is_live(h.face()),
@@ -98,6 +108,6 @@ fn code_settings<C: Coder>(
 /// [`Damage`] if there is no quality of that number.
 pub(crate) fn code_quality<C: Coder>(quality: SolverQuality, coder: &mut C) -> Result<SolverQuality, Damage> {
     let place = SolverQuality::ALL.iter().position(|&known| known == quality).unwrap_or_default();
-    let place = coder.plain(place as u32, 2);
+    let place = coder.plain(number(place), 2);
     SolverQuality::ALL.get(place as usize).copied().ok_or(Damage("the quality of its solver"))
 }

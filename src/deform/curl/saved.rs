@@ -1,5 +1,15 @@
 //! Codes the distances from free edges for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::Vec3;
 
 use super::CurlField;
@@ -65,7 +75,7 @@ impl CurlField {
         let bits = |p: Vec3| p.to_array().map(f32::to_bits);
         let mut known: Vec<([u32; 3], u32)> = Vec::new();
         if !C::READS {
-            known.extend(places.iter().enumerate().map(|(i, &p)| (bits(p), i as u32)));
+            known.extend(places.iter().map(|&p| bits(p)).zip(0..));
             known.sort_unstable();
         }
         let vertex_at = |p: Vec3| {
@@ -73,30 +83,34 @@ impl CurlField {
             found.filter(|&&(at, _)| at == bits(p)).map(|&(_, i)| i)
         };
         let mut lists = Lists::default();
-        let mut nearest_vertices = vec![0u32; self.distances.len()];
+        let mut nearest_vertices: Vec<u32> = Vec::with_capacity(self.distances.len());
         for (i, (distance, nearest)) in self.distances.iter_mut().zip(&mut self.nearest).enumerate() {
             let v = VertexId::new(i);
             let far = distance.to_bits() == f32::INFINITY.to_bits() && bits(*nearest) == bits(Vec3::ZERO);
             if !coder.bit(&mut lists.near, !far) {
                 (*distance, *nearest) = (f32::INFINITY, Vec3::ZERO);
+                nearest_vertices.push(0);
                 continue;
             }
             let own = topology.original(v).0;
             let at = |vertex: u32| places.get(vertex as usize).copied().ok_or(Damage("a free edge"));
             let is_here = *distance == 0.0 && bits(*nearest) == bits(at(own)?);
             if coder.bit(&mut lists.here, is_here) {
-                (*distance, *nearest, nearest_vertices[i]) = (0.0, at(own)?, own);
+                (*distance, *nearest) = (0.0, at(own)?);
+                nearest_vertices.push(own);
                 continue;
             }
             let found = vertex_at(*nearest);
             if coder.bit(&mut lists.known, found.is_some()) {
                 // Neighbours mostly have the same.
-                let before = topology.fan(v).map(|h| topology.target(h)).find(|n| n.index() < i);
-                let expected = before.map_or(own, |n| nearest_vertices[n.index()]);
+                let before = topology.fan(v).find_map(|h| nearest_vertices.get(topology.target(h).index()));
+                let expected = before.copied().unwrap_or(own);
                 let mut vertex = found.unwrap_or_default();
                 coder.word(&mut lists.vertices, &mut vertex, expected);
-                (nearest_vertices[i], *nearest) = (vertex, at(vertex)?);
+                *nearest = at(vertex)?;
+                nearest_vertices.push(vertex);
             } else {
+                nearest_vertices.push(0);
                 coder.vector(&mut lists.points, nearest, Vec3::ZERO);
             }
             let expected = (at(own)? - *nearest).length_squared().sqrt();

@@ -1,8 +1,18 @@
 //! Codes which half-edge carries which constraint, and the angles of bends, for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use super::{Carriers, Ledger, NONE, PARKED};
 use crate::{
-    coding::{Coder, Damage, Differences, Odds},
+    coding::{Coder, Damage, Differences, Odds, number},
     deform::packed::pack::LANES,
     film::HalfEdgeId,
 };
@@ -55,10 +65,9 @@ impl Ledger {
         if C::READS {
             self.shares.resize(shares, 1.0);
         }
-        let [mut lengths, mut bends] = [0, 1].map(|kind| {
-            let taken = packs.iter().map(|packs| vec![0; packs[kind]]).collect();
-            Kind { taken: Taken(taken), places: Differences::default(), packs: Differences::default() }
-        });
+        let taken = packs.iter().map(|&[lengths, bends]| (vec![0; lengths], vec![0; bends]));
+        let (lengths, bends): (Vec<_>, Vec<_>) = taken.unzip();
+        let (mut lengths, mut bends) = (Kind::new(lengths), Kind::new(bends));
         let mut angles = Angles::default();
         let mut share_list = Differences::default();
         for i in 0..half_edges {
@@ -71,7 +80,9 @@ impl Ledger {
             }
             let end = limit * self.share(h);
             let likely = self.bends.has(h) || expected.was;
-            angles.code(&mut self.angles[i], likely, expected.start, end, coder);
+            if let Some(pair) = self.angles.get_mut(i) {
+                angles.code(pair, likely, expected.start, end, coder);
+            }
         }
         Ok(())
     }
@@ -98,11 +109,11 @@ impl Taken {
         let rank = coder.plain((free & ((1 << slot) - 1)).count_ones(), bits);
         // The rank-th of the bits that are set.
         let mut left = free;
-        for _ in 0..rank.min(LANES as u32) {
+        for _ in 0..rank.min(number(LANES)) {
             left &= left.wrapping_sub(1);
         }
         let slot = left.trailing_zeros();
-        if slot >= LANES as u32 {
+        if slot >= number(LANES) {
             return Err(damage);
         }
         *taken |= 1 << slot;
@@ -111,6 +122,11 @@ impl Taken {
 }
 
 impl Kind {
+    /// Makes the odds of constraints that take none of these slots yet.
+    fn new(taken: Vec<Vec<u32>>) -> Self {
+        Self { places: Differences::default(), packs: Differences::default(), taken: Taken(taken) }
+    }
+
     fn code<C: Coder>(
         &mut self,
         carriers: &mut Carriers,
@@ -120,21 +136,21 @@ impl Kind {
         region: usize,
         coder: &mut C,
     ) -> Result<(), Damage> {
-        let lane = carriers.lanes[h.index()];
-        let mut place = match lane {
+        let lane = carriers.lanes.get_mut(h.index()).ok_or(Damage("a lane"))?;
+        let mut place = match *lane {
             NONE => 0,
             PARKED => 1,
             _ => 2,
         };
         coder.word(&mut self.places, &mut place, expected as u32);
-        let lanes = LANES as u32;
-        carriers.lanes[h.index()] = match place {
+        let lanes = number(LANES);
+        *lane = match place {
             0 => NONE,
             1 => PARKED,
             2 => {
-                let pack = coder.difference(&mut self.packs, lane / lanes);
+                let pack = coder.difference(&mut self.packs, *lane / lanes);
                 let first = pack.checked_mul(lanes).ok_or(Damage("a lane"))?;
-                first | self.taken.code(region, pack, lane % lanes, coder)?
+                first | self.taken.code(region, pack, *lane % lanes, coder)?
             }
             _ => return Err(Damage("a constraint")),
         };
@@ -151,7 +167,8 @@ impl Kind {
 /// Odds of the angles of bends.
 #[derive(Default)]
 struct Angles {
-    any: [Odds; 2],
+    any: Odds,
+    any_likely: Odds,
     starts: Differences,
     is_start: Odds,
     is_end: Odds,
@@ -162,7 +179,7 @@ impl Angles {
     /// Codes the angle at which a bend began, and its target when it was parked.
     fn code<C: Coder>(&mut self, [start, target]: &mut [f32; 2], likely: bool, rest: f32, limit: f32, coder: &mut C) {
         let is_none = start.to_bits() == 0 && target.to_bits() == 0;
-        if !coder.bit(&mut self.any[usize::from(likely)], !is_none) {
+        if !coder.bit(if likely { &mut self.any_likely } else { &mut self.any }, !is_none) {
             (*start, *target) = (0.0, 0.0);
             return;
         }

@@ -1,5 +1,15 @@
 //! Codes the marks of sleep for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::Vec3;
 
 use super::SleepMarks;
@@ -25,13 +35,14 @@ impl SleepMarks {
             self.loose.resize(count, false);
         }
         // Marks of a vertex begin once it has separated.
-        let begun = |i: usize, mark: Vec3| if is_attached(i) { Vec3::ZERO } else { mark };
-        coder.vectors(&mut self.positions, |i| begun(i, positions[i]));
+        let place = |i: usize| positions.get(i).copied().unwrap_or_default();
+        let begun = |i: usize| if is_attached(i) { Vec3::ZERO } else { place(i) };
+        coder.vectors(&mut self.positions, begun);
         let (mut list, mut before) = (Differences::default(), 0);
         for (i, quiet) in self.quiet.iter_mut().enumerate() {
             let mut ticks = u32::from(*quiet);
             coder.word(&mut list, &mut ticks, if is_attached(i) { 0 } else { before });
-            *quiet = ticks as u8;
+            *quiet = u8::try_from(ticks).map_err(|_| Damage("the marks of its sleep"))?;
             before = if is_attached(i) { before } else { ticks };
         }
         let known = coder.length(self.announced.len(), count, "the marks of its sleep")?;
@@ -44,7 +55,7 @@ impl SleepMarks {
         let mut lists = Default::default();
         for (i, announced) in self.announced.iter_mut().enumerate() {
             // It came from there.
-            coder.vector_along(&mut lists, announced, begun(i, positions[i]), positions[i] - came_from(i));
+            coder.vector_along(&mut lists, announced, begun(i), place(i) - came_from(i));
         }
         Ok(())
     }

@@ -1,5 +1,15 @@
 //! Codes the packed solver for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::Vec3;
 
 use super::PackedConstraints;
@@ -36,7 +46,10 @@ impl PackedConstraints {
     pub fn code_pack_counts<C: Coder>(&mut self, mesh: &FilmMesh, coder: &mut C) -> Result<Vec<[usize; 2]>, Damage> {
         let topology = &mesh.topology;
         let mut corners = vec![0usize; topology.original_vertex_count()];
-        topology.all_half_edges().for_each(|h| corners[topology.original(topology.origin(h)).index()] += 1);
+        for h in topology.all_half_edges() {
+            let original = topology.original(topology.origin(h));
+            *corners.get_mut(original.index()).ok_or(Damage("a corner"))? += 1;
+        }
         // A pack is begun where neighbours leave no room in others: all constraints at a vertex are neighbours.
         let most = topology.half_edge_count() / 8 + 16 * corners.into_iter().max().unwrap_or_default() + 128;
         let mut counts: Vec<[usize; 2]> = self.regions.iter().map(Region::packs).collect();
@@ -72,14 +85,15 @@ impl PackedConstraints {
     fn fill_packs(&mut self, mesh: &FilmMesh, ledger: &Ledger) -> Result<(), Damage> {
         let topology = &mesh.topology;
         for h in topology.all_half_edges() {
-            let region = self.region_index(topology, h);
-            if let Some(lane) = ledger.lengths().lane(h) {
-                let length = self.length_lane(mesh, h);
-                self.regions[region].give_length(h.0, lane, &length, &self.points)?;
+            let index = self.region_index(topology, h);
+            let length = ledger.lengths().lane(h).map(|lane| (lane, self.length_lane(mesh, h)));
+            let bend = ledger.bends().lane(h).map(|lane| (lane, self.bend_lane(ledger, mesh, h)));
+            let region = self.regions.get_mut(index).ok_or(Damage("a region"))?;
+            if let Some((lane, length)) = length {
+                region.give_length(h.0, lane, &length, &self.points)?;
             }
-            if let Some(lane) = ledger.bends().lane(h) {
-                let bend = self.bend_lane(ledger, mesh, h);
-                self.regions[region].give_bend(h.0, lane, &bend, &self.points)?;
+            if let Some((lane, bend)) = bend {
+                region.give_bend(h.0, lane, &bend, &self.points)?;
             }
         }
         Ok(())

@@ -1,10 +1,20 @@
 //! Codes the points of a film for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use bevy_math::Vec3;
 
 use super::{Motion, Point, PointOffset, Points, xyz};
 use crate::{
-    coding::{Coder, Damage, Differences},
+    coding::{Coder, Damage, Differences, number},
     film::{Topology, VertexId},
 };
 
@@ -34,10 +44,10 @@ impl Points {
         for ((&motion, offset), &position) in self.motions.iter().zip(&self.offsets).zip(positions) {
             let i = offset.index();
             let mass = if motion == Motion::Awake { 1.0 } else { 0.0 };
-            let expected = position * scale;
-            code_point(&mut self.now[i], expected, mass, &mut now, &mut masses[0], coder);
-            let expected = xyz(self.now[i]);
-            code_point(&mut self.before[i], expected, mass, &mut before, &mut masses[1], coder);
+            let point = (self.now.get_mut(i), self.before.get_mut(i));
+            let (Some(here), Some(there)) = point else { return Err(Damage("a point")) };
+            code_point(here, position * scale, mass, &mut now, &mut masses[0], coder);
+            code_point(there, xyz(*here), mass, &mut before, &mut masses[1], coder);
         }
         self.code_awake(coder)
     }
@@ -73,20 +83,22 @@ impl Points {
     /// Codes the lists of awake points: those that woke since the last tick are at the ends.
     fn code_awake<C: Coder>(&mut self, coder: &mut C) -> Result<(), Damage> {
         let mut all: Vec<Vec<PointOffset>> = vec![Vec::new(); self.awake.len()];
-        for (v, _) in self.motions.iter().enumerate().filter(|(_, motion)| **motion == Motion::Awake) {
-            all[self.region_of[v] as usize].push(self.offsets[v]);
+        for ((motion, &region), &offset) in self.motions.iter().zip(&self.region_of).zip(&self.offsets) {
+            if *motion == Motion::Awake {
+                all.get_mut(usize::from(region)).ok_or(Damage("a region"))?.push(offset);
+            }
         }
         let mut list = Differences::default();
         for (awake, mut all) in self.awake.iter_mut().zip(all) {
             all.sort_unstable();
             let known = awake.offsets.get(..awake.count).unwrap_or_default();
-            let in_order = known.windows(2).take_while(|pair| pair[0] < pair[1]).count();
+            let in_order = known.array_windows().take_while(|[a, b]| a < b).count();
             let late = known.get(in_order + 1..).unwrap_or_default().to_vec();
             let count = coder.length(late.len(), all.len(), "the points that are awake")?;
             let mut offsets = late;
             offsets.resize(count, PointOffset::NULL);
             for offset in &mut offsets {
-                let mut place = all.binary_search(offset).unwrap_or_default() as u32;
+                let mut place = number(all.binary_search(offset).unwrap_or_default());
                 coder.word(&mut list, &mut place, 0);
                 *offset = *all.get(place as usize).ok_or(Damage("the points that are awake"))?;
             }

@@ -1,5 +1,15 @@
 //! Codes the packs of a region for snapshots.
 
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
 use super::{BendLane, LengthLane, Region};
 use crate::{
     coding::{Coder, Damage, Differences, Odds},
@@ -112,14 +122,13 @@ impl Region {
     /// Codes the targets of all bends, pack by pack. `by` is how they narrow.
     pub fn code_targets<C: Coder>(&mut self, by: Narrowing, odds: &mut Targets, coder: &mut C) {
         let kernels = Kernels::of(SimdLevel::default());
-        for pack in 0..self.bends.len() {
-            let (bends, targets) = (&mut self.bends[pack], &mut self.targets[pack]);
+        let packs = self.bends.iter_mut().zip(&mut self.targets).zip(&mut self.narrowing);
+        for (((bends, targets), narrowing), first) in packs.zip((0..).step_by(LANES)) {
             // Lanes that nobody uses narrow, too: from 0, all of a pack alike.
             let mut unused = 0.0;
-            for slot in 0..LANES {
-                let is_used = self.bend_slots.is_used((pack * LANES + slot) as u32);
-                let (start, share) = (targets.starts[slot], targets.shares[slot]);
-                let target = &mut targets.targets[slot];
+            let lanes = targets.targets.iter_mut().zip(&targets.starts).zip(&targets.shares);
+            for (((target, &start), &share), lane) in lanes.zip(first..) {
+                let is_used = self.bend_slots.is_used(lane);
                 let odds = if is_used { &mut odds.used } else { &mut odds.unused };
                 let expected = if is_used { None } else { Some(unused) };
                 odds.code(target, expected, start, by.step * share, start - by.limit * share, coder);
@@ -127,7 +136,7 @@ impl Region {
                     unused = *target;
                 }
             }
-            coder.flag(&mut odds.narrowing, &mut self.narrowing[pack], true);
+            coder.flag(&mut odds.narrowing, narrowing, true);
             // Folds follow from the targets where they have been renewed since the targets changed.
             let mut renewed = bends.clone();
             // SAFETY: kernels are those of this CPU; no indices are followed. A step of 0 changes no target.
