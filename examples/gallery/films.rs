@@ -2,6 +2,7 @@
 
 use crate::cli::Options;
 use crate::common_scene::paint::Loading;
+use crate::measure::exhibit::Beginning;
 use crate::measure::figure::{Look, Panel};
 use crate::measure::spread::in_parallel;
 use crate::wires;
@@ -12,7 +13,7 @@ use bevy_coating::fracture::FilmForces;
 use bevy_coating::heat::HeatMap;
 use bevy_coating::sim::{FilmClock, FilmState};
 use bevy_coating::stain::{Environment, StainFields};
-use bevy_coating::{CoatingStatus, HeatMapView, prelude::*};
+use bevy_coating::{CoatingPart, CoatingStatus, HeatMapView, prelude::*};
 
 /// What is wanted of a film, on the prop.
 #[derive(Component, Clone, Debug)]
@@ -30,7 +31,7 @@ pub struct FilmsPlugin;
 
 impl Plugin for FilmsPlugin {
     fn build(&self, app: &mut App) {
-        app.add_systems(Update, (begin, arrive).chain());
+        app.add_systems(Update, (begin, arrive, hide_metal).chain());
     }
 }
 
@@ -53,6 +54,16 @@ fn begin(
         commands.entity(film.root).insert(Begun);
         if panel.look == Look::Heat {
             commands.entity(film.root).insert(HeatMapView::new(HeatMap::Adhesion));
+        }
+    }
+}
+
+/// In free space there is no metal under a film.
+fn hide_metal(mut parts: Query<(&Name, &ChildOf, &mut Visibility), Added<CoatingPart>>, props: Query<&Wanted>) {
+    for (name, prop, mut visibility) in &mut parts {
+        let is_free = props.get(prop.parent()).is_ok_and(|prop| prop.panel.exhibit.beginning == Beginning::Free);
+        if is_free && name.as_str() == "bare metal" {
+            *visibility = Visibility::Hidden;
         }
     }
 }
@@ -98,8 +109,10 @@ fn arrive(
             clock: *clock,
             ..FilmState::default()
         };
-        if panel.look == Look::Wires {
-            wires::draw(&mut commands, &mut meshes, &mut materials, (panel, *place, &film));
+        match panel.look {
+            Look::Wires => wires::draw(&mut commands, &mut meshes, &mut materials, (panel, *place, &film)),
+            Look::Cracks => wires::draw_cracks(&mut commands, &mut meshes, &mut materials, (*place, &film)),
+            Look::Paint | Look::Heat => {}
         }
         found.push((panel.clone(), film));
     }

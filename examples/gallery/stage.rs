@@ -31,8 +31,6 @@ const LINE: f32 = 0.085;
 const FIELD_OF_VIEW: f32 = 0.3;
 /// Of the window.
 pub const SIZE: UVec2 = UVec2::new(1280, 720);
-/// Width of a picture, and its least height.
-const WIDTH: u32 = 960;
 
 pub struct StagePlugin;
 
@@ -199,6 +197,12 @@ fn build(
         perceptual_roughness: 0.45,
         ..default()
     });
+    // Stains show best on a light one.
+    let light = materials.add(StandardMaterial {
+        base_color: Color::srgb(0.80, 0.76, 0.66),
+        perceptual_roughness: 0.45,
+        ..default()
+    });
     let sign = materials.add(StandardMaterial {
         base_color_texture: Some(assets.load("city/street_sign.png")),
         perceptual_roughness: 0.38,
@@ -216,7 +220,11 @@ fn build(
         }
         for (index, (panel, surface)) in panels.into_iter().zip(surfaces).enumerate() {
             let place = Transform::from_translation(grid.place(index) - middle_of(&surface));
-            let material = if matches!(panel.exhibit.shape, Shape::Sign(_)) { &sign } else { &paint };
+            let material = match (panel.exhibit.shape, panel.exhibit.name) {
+                (Shape::Sign(_), _) => &sign,
+                (_, "dust") => &light,
+                _ => &paint,
+            };
             let line = [grid.line, grid.cell.x];
             let title = &panel.exhibit.title;
             labels::write(
@@ -282,8 +290,8 @@ pub fn shots(options: &Options) -> Vec<Shot> {
             View::Wall | View::Free { .. } => grid.size(),
         };
         // Even, as some encoders of moving pictures want it.
-        let height = ((WIDTH as f32 * shape.y / shape.x) as u32).clamp(200, WIDTH) / 2 * 2;
-        let size = options.scene.size.map_or(UVec2::new(WIDTH, height), UVec2::from);
+        let height = ((figure.width as f32 * shape.y / shape.x) as u32).clamp(200, figure.width) / 2 * 2;
+        let size = options.scene.size.map_or(UVec2::new(figure.width, height), UVec2::from);
         let aspect = size.x as f32 / size.y as f32;
         Shot { age, orbit: orbit(figure, grid, aspect), size, file: format!("{}.png", figure.file) }
     };

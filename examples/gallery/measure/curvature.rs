@@ -23,6 +23,8 @@ pub const GAMMAS: [f32; 3] = [1.0, 2.0, 4.0];
 pub const STEEP: f32 = 0.2;
 
 const STEPS: u32 = 500;
+/// Age at which the runs end: by then nearly everything has let go, so that late places are not left out.
+const END: f32 = 2.0;
 
 /// Returns the paper's settings with another gamma.
 pub fn settings(gamma: f32) -> CoatingSettings {
@@ -61,7 +63,7 @@ pub fn shifts() -> Result<[[Spread; 2]; 3], NoFilm> {
         let mut film = vase.film(STEPS)?;
         let vertices = 0..film.mesh.topology.original_vertex_count();
         let bends: Vec<f32> = vertices.map(|v| bend_at(&film.mesh, VertexId::new(v))).collect();
-        film.age_to(1.0, &settings, &Environment::default());
+        film.age_to(f64::from(END), &settings, &Environment::default());
         Ok((bends, film))
     });
     let runs = runs.into_iter().collect::<Result<Vec<(Vec<f32>, FilmState)>, NoFilm>>()?;
@@ -78,7 +80,7 @@ fn shifts_of_seed(runs: &[(Vec<f32>, FilmState)]) -> [f64; 6] {
         let mut sums = [(0.0, 0.0f64); 2];
         for (v, bend) in bends.iter().enumerate().filter(|(_, bend)| bend.abs() > STEEP) {
             let ages = [without, with].map(|film| film.forces.separated_age[v]);
-            if ages.iter().all(|&age| age > 1.5 / STEPS as f32 && age <= 1.0) {
+            if ages.iter().all(|&age| age > 1.5 / STEPS as f32 && age <= END) {
                 let (sum, count) = &mut sums[usize::from(*bend < 0.0)];
                 *sum += f64::from(ages[1] - ages[0]);
                 *count += 1.0;

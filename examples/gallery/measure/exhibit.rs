@@ -35,7 +35,7 @@ pub enum Shape {
     Wheel(u32),
     /// The plate of a street sign, from a file.
     Sign(u32),
-    /// A fire hydrant, 0.9 metres high: a closed model from a file.
+    /// A fire hydrant, about a metre high: a closed model from a file.
     Hydrant(u32),
 }
 
@@ -65,7 +65,7 @@ impl Shape {
             Self::Vase(_) => solid::vase(),
             Self::Wheel(_) => solid::wheel(),
             Self::Sign(_) => read("city/street_sign.glb", "plate", 1.0)?,
-            Self::Hydrant(_) => read("props/prop_firehydrant.glb", "", 3.5)?,
+            Self::Hydrant(_) => read("props/prop_firehydrant.glb", "", 4.2)?,
         })
     }
 

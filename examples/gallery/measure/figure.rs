@@ -13,6 +13,8 @@ pub enum Look {
     Paint,
     /// Coloured by adhesion minus bending force.
     Heat,
+    /// As paint, with lines along cracks and marks at the sources of rust.
+    Cracks,
     /// As paint, with the triangles of the simulation and those that are drawn as lines.
     Wires,
 }
@@ -57,6 +59,8 @@ pub struct Figure {
     pub here: &'static str,
     pub view: View,
     pub columns: usize,
+    /// Width of the picture, in pixels.
+    pub width: u32,
     /// Films in the picture, row by row. No picture if there are none.
     pub panels: fn() -> Vec<Panel>,
     /// What is measured, without an engine.

@@ -37,8 +37,8 @@ pub fn strokes() -> Vec<Stroke> {
     let wave = |t: f32| Vec2::new(0.22 * ops::sin(t * TAU), 0.40 - 0.8 * t);
     let corner = |t: f32| Vec2::new(0.42, -0.42 + 0.6 * t);
     vec![
-        Stroke { factor: 1.8, radius: 0.085, places: along(60, &wave) },
-        Stroke { factor: 0.6, radius: 0.10, places: along(40, &corner) },
+        Stroke { factor: 2.0, radius: 0.085, places: along(60, &wave) },
+        Stroke { factor: 0.7, radius: 0.10, places: along(40, &corner) },
     ]
 }
 
@@ -54,12 +54,15 @@ pub fn paint(mesh: &FilmMesh, forces: &mut FilmForces, strokes: &[Stroke]) {
 
 /// Returns the painted plate.
 pub fn plate(seed: u64) -> Exhibit {
-    let plate = Exhibit::new("painted", "", Shape::Plate(6_000), paper());
+    let mut settings = paper();
+    // More even than by default, that one sees the brush rather than the noise.
+    settings.adhesion.deviation = 0.4;
+    let plate = Exhibit::new("painted", "", Shape::Plate(6_000), settings);
     Exhibit { seed, beginning: Beginning::Painted(strokes()), ..plate }
 }
 
 /// Age at which the paint is looked at.
-pub const AGE: f64 = 0.8;
+pub const AGE: f64 = 0.95;
 
 /// Shares of a painted plate that have let go, and how well the map of margins foretold it.
 pub struct Steered {

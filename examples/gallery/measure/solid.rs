@@ -39,9 +39,9 @@ impl Solid {
     }
 }
 
-/// Radius and height of points along the vase's outline: from the middle of its foot, over stem, belly, neck and lip, to
+/// Radius and height of points along the vase's outline: from the middle of its foot, over stem, belly, hoop, neck and lip, to
 /// the middle of the dish on top. Its bends are steep at the foot and gentle further up.
-const VASE: [[f32; 2]; 27] = [
+const VASE: [[f32; 2]; 37] = [
     [0.0, 0.0],
     [0.12, 0.0],
     [0.185, 0.0],
@@ -56,9 +56,19 @@ const VASE: [[f32; 2]; 27] = [
     [0.18, 0.26],
     [0.25, 0.34],
     [0.29, 0.43],
-    [0.3, 0.53],
-    [0.275, 0.62],
-    [0.225, 0.672],
+    [0.297, 0.5],
+    [0.293, 0.545],
+    [0.292, 0.553],
+    [0.3, 0.558],
+    [0.318, 0.56],
+    [0.325, 0.566],
+    [0.325, 0.6],
+    [0.318, 0.606],
+    [0.29, 0.608],
+    [0.282, 0.613],
+    [0.277, 0.622],
+    [0.26, 0.655],
+    [0.225, 0.68],
     [0.15, 0.7],
     [0.122, 0.708],
     [0.114, 0.72],

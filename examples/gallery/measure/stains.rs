@@ -137,7 +137,7 @@ impl Factor {
 }
 
 /// Age at which dust is compared.
-pub const DUST_AGE: f64 = 0.5;
+pub const DUST_AGE: f64 = 0.7;
 
 /// Returns how much more dust there is on the vase where the factor says so, for height, direction and curvature each
 /// alone: at the foot over the top, on what faces up over what faces down, and in hollows over ridges.

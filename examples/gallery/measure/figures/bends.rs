@@ -23,6 +23,7 @@ pub const PART: Figure = Figure {
     here: "A toothed wheel, remeshed once to 8,000 uniformly random triangles. The paper's rules, without stains.",
     view: View::Free { yaw: 0.45, pitch: 0.22 },
     columns: 5,
+    width: 960,
     panels: || {
         let panel = |age| Panel { level: 1, ..Panel::new(Exhibit { title: format!("age {age}"), ..part() }, age) };
         PART_AGES.map(panel).to_vec()
@@ -55,6 +56,7 @@ pub const DISK: Figure = Figure {
            that is slow, and far from its end even after 100,000 sweeps.",
     view: View::Free { yaw: 0.0, pitch: 0.9 },
     columns: 3,
+    width: 960,
     panels: || {
         let sweeps = ["1,000 sweeps", "10,000 sweeps", "100,000 sweeps"];
         let panel = |(age, title): (f64, &str)| Panel::new(Exhibit { title: title.to_owned(), ..disk::disk() }, age);
@@ -90,6 +92,7 @@ pub const VASE: Figure = Figure {
            and concave are places around which edges bend by more than 0.2 radians.",
     view: View::Free { yaw: 0.3, pitch: 0.12 },
     columns: 3,
+    width: 960,
     panels: || {
         let panel = |gamma: f32| {
             let vase = Shape::Vase(curvature::TRIANGLES);

@@ -5,7 +5,7 @@ use bevy_coating::settings::CoatingSettings;
 use crate::measure::{
     claim::Claim,
     exhibit::{Exhibit, NoFilm, Shape, paper},
-    figure::{ANY, Figure, Panel, View, around, at_least, at_most},
+    figure::{ANY, Figure, Look, Panel, View, around, at_least, at_most},
     spread::{Spread, over_seeds},
     trends::{self, ALPHAS, BETAS, HIGH_ALPHA, PLATES, by_grain},
 };
@@ -33,15 +33,22 @@ pub const FEW: Figure = Figure {
     paper: "The method before this one has cracks only beside what has peeled. The static simulation alone makes long \
             cracks that branch; bending adds curls that open them. With other parameters few cracks can still be had.",
     here: "A plate of 3,012 triangles at age 0.9: few cracks (beta 0.9, decay of binding 5, 0.4 % weak edges, 0.7 of the \
-           contraction kept at a tear), the paper's constants without bending, and with it.",
+           contraction kept at a tear) and the paper's constants, both without bending and with lines along the cracks; and \
+           the same with bending.",
     view: View::Wall,
     columns: 3,
+    width: 960,
     panels: || {
-        let panel = |(title, settings): (&str, CoatingSettings)| Panel {
+        let panel = |(title, settings, look): (&str, CoatingSettings, Look)| Panel {
+            look,
             level: 1,
             ..Panel::new(Exhibit::new("plate", title, Shape::Plate(3_012), settings), FEW_AGE)
         };
-        let all = [("few cracks", few_cracks()), ("static only", unbent(paper())), ("with bending", paper())];
+        let all = [
+            ("few cracks, static", unbent(few_cracks()), Look::Cracks),
+            ("static only", unbent(paper()), Look::Cracks),
+            ("with bending", paper(), Look::Paint),
+        ];
         all.map(panel).to_vec()
     },
     claims: || {
@@ -80,6 +87,7 @@ pub const MODELS: Figure = Figure {
            repository); the paper's rules, age 0.9, without stains in the picture.",
     view: View::Free { yaw: -0.35, pitch: 0.12 },
     columns: 3,
+    width: 960,
     panels: || {
         let all = [
             ("flat plate", Shape::Plate(3_012)),
@@ -122,6 +130,7 @@ pub const FINENESS: Figure = Figure {
            triangles by the default rules, which measure in metres and need no other alpha.",
     view: View::Wall,
     columns: 5,
+    width: 960,
     panels: || {
         let [coarse, fine] = PLATES;
         let mut straight = paper();
@@ -170,6 +179,7 @@ pub const CONTROL: Figure = Figure {
            fresh, 4 at age 1) over the binding (6), cracks do not run on.",
     view: View::Wall,
     columns: 0,
+    width: 960,
     panels: Vec::new,
     claims: control,
 };
@@ -242,6 +252,7 @@ pub const AGES: Figure = Figure {
            independent prototype.",
     view: View::Wall,
     columns: 0,
+    width: 960,
     panels: Vec::new,
     claims: || {
         let shares = trends::shares_by_age()?;

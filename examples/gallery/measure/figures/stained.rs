@@ -3,7 +3,7 @@
 use crate::measure::{
     claim::Claim,
     exhibit::{Exhibit, Shape},
-    figure::{Figure, Panel, View, around, at_least, at_most},
+    figure::{Figure, Look, Panel, View, around, at_least, at_most},
     stains::{self, DUST_AGE, Factor},
 };
 
@@ -14,11 +14,15 @@ pub const RUN_OFF: Figure = Figure {
     paper: "Of a crack only the lower end is a source of rust, also when it grows or branches; the rust runs down along \
             the surface, in the direction of gravity projected on it.",
     here: "A plate of 3,012 triangles that tears once, and does nothing more by itself; default rust, ages 0.1, 0.4 and \
-           1. The numbers are at age 1.",
+           1. A line is drawn along the crack, and a mark at its source. The numbers are at age 1.",
     view: View::Wall,
     columns: 3,
+    width: 960,
     panels: || {
-        let panel = |age: f64| Panel::new(Exhibit { title: format!("age {age}"), ..stains::cracked_plate(7) }, age);
+        let panel = |age: f64| Panel {
+            look: Look::Cracks,
+            ..Panel::new(Exhibit { title: format!("age {age}"), ..stains::cracked_plate(7) }, age)
+        };
         [0.1, 0.4, 1.0].map(panel).to_vec()
     },
     claims: || {
@@ -45,11 +49,12 @@ pub const DUST: Figure = Figure {
     title: "black stains by each factor",
     paper: "Dust gathers more slowly where a place is higher, faces down more, or is more convex. Each factor is shown \
             by itself, and then all three.",
-    here: "The vase with sound paint at age 0.5: one factor with all its weight in each of the first three, the default \
+    here: "The vase with sound paint at age 0.7: one factor with all its weight in each of the first three, the default \
            weights in the last. The numbers compare the tenth of the vertices where a factor wants most dust with the \
            tenth where it wants least.",
     view: View::Free { yaw: 0.3, pitch: 0.3 },
     columns: 4,
+    width: 960,
     panels: || {
         let titles = ["height", "direction", "curvature", "all three"];
         let panel = |(factor, title): (Factor, &str)| {
@@ -62,7 +67,7 @@ pub const DUST: Figure = Figure {
         Ok(vec![
             Claim::new("dust at the foot over dust at the top, by height alone", height, at_least(2.0), 1),
             Claim::new("dust on what faces up over what faces down, by direction alone", direction, at_least(2.0), 1),
-            Claim::new("dust in hollows over dust on ridges, by curvature alone", curvature, at_least(1.2), 2),
+            Claim::new("dust in hollows over dust on ridges, by curvature alone", curvature, at_least(1.1), 2),
         ])
     },
 };
