@@ -2,8 +2,8 @@
 //! that are measured in the same run.
 //!
 //! `cargo run --example gallery` opens a window in which Left and Right step through the figures; without a display, or
-//! with `--headless`, it renders a picture of each into a PNG file and writes a page; with `--page` the page and its
-//! small pictures go into the repository, too. Without a graphics adapter it writes the page without pictures.
+//! with `--headless`, it renders a picture of each into a PNG file and writes a page; with `--headless --page` the page
+//! and its small pictures go into the repository, too. Without a graphics adapter it writes the page without pictures.
 //! `--animate FILE --figure fig17` makes a moving picture of a figure.
 
 #![allow(clippy::disallowed_methods, reason = "the scene is only looked at; its bits may differ between platforms")]

@@ -47,8 +47,8 @@ pub fn bend_at(mesh: &FilmMesh, v: VertexId) -> f32 {
 /// Returns by how much the age at which places of the vase let go differs from that without gamma, for each of
 /// [`GAMMAS`]: on convex places, and on concave ones.
 ///
-/// The runs are paired: the same film, adhesion and weak edges with and without gamma. Places count that let go in both,
-/// not at once and before the end of the run.
+/// The runs are paired: the same film, adhesion and weak edges with and without gamma. Places count that let go in
+/// both, not at once and before the end of the run.
 ///
 /// # Errors
 /// [`NoFilm`] if there is no vase.

@@ -18,12 +18,15 @@ pub const TIMES: [&str; 2] = ["<!-- times -->", "<!-- end of times -->"];
 
 const HEAD: &str = "# The paper and us, side by side
 
-Each figure of the paper, what it states in our words, and the same made here. `cargo run --example gallery -- --page`
-writes this page and its pictures; `cargo core --test gallery` measures all numbers again and fails if one of them differs
-from what is written here, or leaves its band. Means and standard deviations are over five seeds where there is a ±.
-\"The paper's rules\" are `Preset::Paper`, which count in triangles; the default settings measure in metres. Bands come
-from the paper where it gives a number, else from an independent prototype of its method, with the margins of that; where
-a band says only at least or at most, it is a trend that the paper states.
+Each figure of the paper, what it states in our words, and the same made here. This page and its pictures are written by
+`cargo run --example gallery -- --headless --page`. `cargo core --test gallery` measures all numbers again and fails if
+one of them differs from what is written here, or leaves its band. Where there is a ±, numbers are means and standard
+deviations over five seeds.
+\"The paper's rules\" are `Preset::Paper`, which count in triangles; the default settings measure in metres.
+
+The paper gives few numbers. Bands are what it gives; figures of an independent prototype of its method, with the
+margins of those (fig. 8, fig. 17, sections 5.1 to 5.3); at least or at most, where it states a trend; and elsewhere wide
+bands of our own, which hold what one sees in the pictures.
 ";
 
 /// Measures all figures.

@@ -49,8 +49,8 @@ fn rust(film: &FilmState) -> Vec<(f64, Vec3)> {
 pub struct RunOff {
     /// Number of sources.
     pub sources: Spread,
-    /// Share of the plates on which a crack that went on downward took its source along, and one that went on upward did
-    /// not.
+    /// Share of the plates on which a crack that went on downward took its source along, and one that went on upward
+    /// did not.
     pub moves: Spread,
     /// Share of the rust that lies below the crack's lower end.
     pub below: Spread,

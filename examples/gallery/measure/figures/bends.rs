@@ -18,8 +18,8 @@ pub const PART: Figure = Figure {
     number: "Fig. 1",
     file: "fig01",
     title: "a mechanical part at five ages",
-    paper: "A part of complex form goes from whole to far gone, and cracks look natural without remeshing, because the \
-            triangles are uniformly random.",
+    paper: "A part of complex form goes from whole to far gone, and cracks look natural without remeshing, because \
+            the triangles are uniformly random.",
     here: "A toothed wheel, remeshed once to 8,000 uniformly random triangles. The paper's rules, without stains.",
     view: View::Free { yaw: 0.45, pitch: 0.22 },
     columns: 5,
@@ -49,11 +49,11 @@ pub const DISK: Figure = Figure {
     number: "Fig. 6",
     file: "fig06",
     title: "bending alone, on a disk",
-    paper: "With lengths kept and all angles between faces narrowed, a disk of 4,047 triangles bends to one side. (The \
-            caption's target of 10 degrees is off flat: 170 degrees between the faces.)",
-    here: "A disk of 4,047 triangles in free space, all of it let go and all targets 170 degrees from the first step on, \
-           after 1,000, 10,000 and 100,000 sweeps. A sheet that keeps its lengths cannot become a bowl, so it rolls up; \
-           that is slow, and far from its end even after 100,000 sweeps.",
+    paper: "With lengths kept and all angles between faces narrowed, a disk of 4,047 triangles bends to one side. \
+            (The caption's target of 10 degrees is off flat: 170 degrees between the faces.)",
+    here: "A disk of 4,047 triangles in free space, all of it let go and all targets 170 degrees from the first step \
+           on, after 1,000, 10,000 and 100,000 sweeps. A sheet that keeps its lengths cannot become a bowl, so it \
+           rolls up; that is slow, and far from its end even after 100,000 sweeps.",
     view: View::Free { yaw: 0.0, pitch: 0.9 },
     columns: 3,
     width: 960,
@@ -87,9 +87,9 @@ pub const VASE: Figure = Figure {
     title: "gamma, the effect of curvature",
     paper: "With gamma 1 curvature hardly matters even where the foot bends steeply; with 4 it shows even on gentle \
             curves; 2, in between, is chosen.",
-    here: "A vase with a steep foot and a gentle belly; 6,000 triangles, the paper's rules, age 0.5. The numbers are of \
-           paired runs: by how much earlier (-) or later (+) a place lets go than the same place without gamma. Convex \
-           and concave are places around which edges bend by more than 0.2 radians.",
+    here: "A vase with a steep foot and a gentle belly; 6,000 triangles, the paper's rules, age 0.5. The numbers are \
+           of paired runs: by how much earlier (-) or later (+) a place lets go than the same place without gamma. \
+           Convex and concave are places around which edges bend by more than 0.2 radians.",
     view: View::Free { yaw: 0.3, pitch: 0.12 },
     columns: 3,
     width: 960,

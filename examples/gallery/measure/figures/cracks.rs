@@ -30,11 +30,12 @@ pub const FEW: Figure = Figure {
     number: "Fig. 12",
     file: "fig12",
     title: "few cracks, long cracks, and bending",
-    paper: "The method before this one has cracks only beside what has peeled. The static simulation alone makes long \
-            cracks that branch; bending adds curls that open them. With other parameters few cracks can still be had.",
-    here: "A plate of 3,012 triangles at age 0.9: few cracks (beta 0.9, decay of binding 5, 0.4 % weak edges, 0.7 of the \
-           contraction kept at a tear) and the paper's constants, both without bending and with lines along the cracks; and \
-           the same with bending.",
+    paper: "The method before this one has cracks only beside what has peeled. The static simulation alone makes \
+            long cracks that branch; bending adds curls that open them. With other parameters few cracks can still \
+            be had.",
+    here: "A plate of 3,012 triangles at age 0.9: few cracks (beta 0.9, decay of binding 5, 0.4 % weak edges, 0.7 of \
+           the contraction kept at a tear) and the paper's constants, both without bending and with lines along the \
+           cracks; and the same with bending.",
     view: View::Wall,
     columns: 3,
     width: 960,
@@ -81,10 +82,10 @@ pub const MODELS: Figure = Figure {
     number: "Fig. 15 and Table 1",
     file: "fig15",
     title: "a plate, a curved plate and a closed model",
-    paper: "Three kinds of model weather alike: a flat plate of 3,012 triangles, a curved one of 3,005 and the Stanford \
-            bunny of 10,000. 1,000 steps take 15 to 66 seconds.",
-    here: "The same plates, and a fire hydrant remeshed to 10,000 triangles (the bunny's licence keeps it out of this \
-           repository); the paper's rules, age 0.9, without stains in the picture.",
+    paper: "Three kinds of model weather alike: a flat plate of 3,012 triangles, a curved one of 3,005 and the \
+            Stanford bunny of 10,000. 1,000 steps take 15 to 66 seconds.",
+    here: "The same plates, and a fire hydrant remeshed to 10,000 triangles (the bunny's licence keeps it out of \
+           this repository); the paper's rules, age 0.9, without stains in the picture.",
     view: View::Free { yaw: -0.35, pitch: 0.12 },
     columns: 3,
     width: 960,
@@ -124,8 +125,8 @@ pub const FINENESS: Figure = Figure {
     number: "Fig. 17",
     file: "fig17",
     title: "coarse and fine plates",
-    paper: "Counted in triangles, 11,488 of them crack much more densely than 3,012 on the same plate; a higher alpha \
-            brings the fine plate back to about as many cracks.",
+    paper: "Counted in triangles, 11,488 of them crack much more densely than 3,012 on the same plate; a higher \
+            alpha brings the fine plate back to about as many cracks.",
     here: "The same three plates by the paper's rules at age 0.6, with alpha 0.9 in the third; then 3,012 and 11,488 \
            triangles by the default rules, which measure in metres and need no other alpha.",
     view: View::Wall,
@@ -174,9 +175,9 @@ pub const CONTROL: Figure = Figure {
     title: "alpha and beta",
     paper: "An edge ahead of a crack tears more easily, if the cosine of its direction is above alpha (0.45) and its \
             binding times beta (0.2) is less than the contraction of its faces: cracks get straight.",
-    here: "Plates by the paper's rules over five seeds, for alpha at age 0.6 and for beta at age 1. A higher alpha makes \
-           straighter and fewer cracks. Beta is a threshold: where it is above the contraction of two faces (2 when \
-           fresh, 4 at age 1) over the binding (6), cracks do not run on.",
+    here: "Plates by the paper's rules over five seeds, for alpha at age 0.6 and for beta at age 1. A higher alpha \
+           makes straighter and fewer cracks. Beta is a threshold: where it is above the contraction of two faces (2 \
+           when fresh, 4 at age 1) over the binding (6), cracks do not run on.",
     view: View::Wall,
     columns: 0,
     width: 960,
@@ -248,8 +249,8 @@ pub const AGES: Figure = Figure {
     file: "ages",
     title: "shares at each age",
     paper: "Paint separates, tears and is stripped, and the stages go on side by side. The paper gives no numbers.",
-    here: "A plate of 3,012 triangles by the paper's rules, over five seeds; loose pieces stay. Bands are those of an \
-           independent prototype.",
+    here: "A plate of 3,012 triangles by the paper's rules, over five seeds; loose pieces stay. Bands are those of \
+           an independent prototype.",
     view: View::Wall,
     columns: 0,
     width: 960,

@@ -14,9 +14,10 @@ pub const CLOSE: Figure = Figure {
     number: "Fig. 13",
     file: "fig13",
     title: "a close-up",
-    paper: "Beside a photograph of an old object, cracks and curls of the simulated film look like those of real paint.",
-    here: "A plate with the default settings, which measure in metres, of 11,488 triangles, each drawn as 256; age 0.85, \
-           seen from 20 centimetres.",
+    paper: "Beside a photograph of an old object, cracks and curls of the simulated film look like those of real \
+            paint.",
+    here: "A plate with the default settings, which measure in metres, of 11,488 triangles, each drawn as 256; age \
+           0.85, seen from 20 centimetres.",
     view: View::Close { distance: 0.2, yaw: 0.35, at: [0.05, 0.05] },
     columns: 1,
     width: 960,
@@ -47,8 +48,8 @@ pub const SIGN: Figure = Figure {
     file: "fig14",
     title: "a street sign",
     paper: "A weathered sign fits into a scene in which everything is old.",
-    here: "The sign of the example `city_sign` with the default settings, fresh and at age 0.75. In its street it is shown \
-           by `cargo run --example city_sign`.",
+    here: "The sign of the example `city_sign` with the default settings, fresh and at age 0.75. In its street it is \
+           shown by `cargo run --example city_sign`.",
     view: View::Free { yaw: 0.0, pitch: 0.0 },
     columns: 2,
     width: 960,
@@ -75,10 +76,11 @@ pub const STEERED: Figure = Figure {
     number: "Fig. 16",
     file: "fig16",
     title: "weathering that is directed",
-    paper: "Adhesion and binding can be varied by hand, place by place; colouring by adhesion minus lifting force shows \
-            where the film is likely to fracture.",
-    here: "A plate of 6,000 triangles by the paper's rules. The adhesion is multiplied by 2 along an S and by 0.7 in a \
-           corner: fresh, its heat map, and at age 0.95. Its noise is weaker than by default (deviation 0.4). `cargo run --example paint_brush` does it with a brush.",
+    paper: "Adhesion and binding can be varied by hand, place by place; colouring by adhesion minus lifting force \
+            shows where the film is likely to fracture.",
+    here: "A plate of 6,000 triangles by the paper's rules. The adhesion is multiplied by 2 along an S and by 0.7 in \
+           a corner: fresh, its heat map, and at age 0.95. Its noise is weaker than by default (deviation 0.4). \
+           `cargo run --example paint_brush` does it with a brush.",
     view: View::Wall,
     columns: 3,
     width: 960,
@@ -108,8 +110,8 @@ pub const FINE: Figure = Figure {
     file: "fig18",
     title: "shown finer than it is simulated",
     paper: "A plate simulated with 3,012 triangles is drawn with 46,399; lines of both meshes lie over each other.",
-    here: "A plate of 3,012 triangles at age 0.9 by the paper's rules: as it is, drawn at level 2 of `Detail`, and the \
-           lines of both meshes, green and grey.",
+    here: "A plate of 3,012 triangles at age 0.9 by the paper's rules: as it is, drawn at level 2 of `Detail`, and \
+           the lines of both meshes, green and grey.",
     view: View::Wall,
     columns: 3,
     width: 1440,

@@ -11,10 +11,10 @@ pub const RUN_OFF: Figure = Figure {
     number: "Figs. 9 and 10",
     file: "fig09",
     title: "rust from a lone crack",
-    paper: "Of a crack only the lower end is a source of rust, also when it grows or branches; the rust runs down along \
-            the surface, in the direction of gravity projected on it.",
-    here: "A plate of 3,012 triangles that tears once, and does nothing more by itself; default rust, ages 0.1, 0.4 and \
-           1. A line is drawn along the crack, and a mark at its source. The numbers are at age 1.",
+    paper: "Of a crack only the lower end is a source of rust, also when it grows or branches; the rust runs down \
+            along the surface, in the direction of gravity projected on it.",
+    here: "A plate of 3,012 triangles that tears once, and does nothing more by itself; default rust, ages 0.1, 0.4 \
+           and 1. A line is drawn along the crack, and a mark at its source. The numbers are at age 1.",
     view: View::Wall,
     columns: 3,
     width: 960,
@@ -47,11 +47,11 @@ pub const DUST: Figure = Figure {
     number: "Fig. 11",
     file: "fig11",
     title: "black stains by each factor",
-    paper: "Dust gathers more slowly where a place is higher, faces down more, or is more convex. Each factor is shown \
-            by itself, and then all three.",
-    here: "The vase with sound paint at age 0.7: one factor with all its weight in each of the first three, the default \
-           weights in the last. The numbers compare the tenth of the vertices where a factor wants most dust with the \
-           tenth where it wants least.",
+    paper: "Dust gathers more slowly where a place is higher, faces down more, or is more convex. Each factor is \
+            shown by itself, and then all three.",
+    here: "The vase with sound paint at age 0.7: one factor with all its weight in each of the first three, the \
+           default weights in the last. The numbers compare the tenth of the vertices where a factor wants most dust \
+           with the tenth where it wants least.",
     view: View::Free { yaw: 0.3, pitch: 0.3 },
     columns: 4,
     width: 960,
