@@ -17,21 +17,13 @@ mod views;
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, window};
+use common_scene::{paint, scene::Scene};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let folder = options.scene.folder("city_sign");
-    if !graphics::adapter_exists() {
-        return common_scene::bare::run(&folder, bare::pieces(&options));
-    }
-    let mut app = App::new();
-    if options.scene.pictures() || !graphics::display_exists() {
-        headless::add(&mut app, &options.scene, folder, views::shots(&options));
-    } else {
-        let size = options.scene.size.map_or(views::SIZE, UVec2::from);
-        window::add(&mut app, "City sign", size, views::views(&options));
-    }
+    let scene = Scene::new("city_sign", "City sign", &options.scene);
+    let opened = scene.open(views::SIZE, |_| views::views(&options), || views::shots(&options));
+    let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     app.add_plugins((scene::ScenePlugin, props::PropsPlugin, paint::PaintPlugin, debris::DebrisPlugin));
     app.run()

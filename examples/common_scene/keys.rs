@@ -9,13 +9,15 @@ pub enum Command {
     Step,
     Faster,
     Slower,
+    Next,
+    Previous,
     Repaint,
     Help,
     Close,
 }
 
 /// What each command is called, and its keys with their names.
-const COMMANDS: [(Command, &str, &[(KeyCode, &str)]); 7] = [
+const COMMANDS: [(Command, &str, &[(KeyCode, &str)]); 9] = [
     (Command::Pause, "pause and go on", &[(KeyCode::Space, "Space")]),
     (Command::Step, "pause and take one step", &[(KeyCode::KeyS, "S"), (KeyCode::KeyN, "N")]),
     (
@@ -28,6 +30,8 @@ const COMMANDS: [(Command, &str, &[(KeyCode, &str)]); 7] = [
         "age slower",
         &[(KeyCode::ArrowDown, "Down"), (KeyCode::Minus, "-"), (KeyCode::NumpadSubtract, "keypad -")],
     ),
+    (Command::Next, "next view", &[(KeyCode::ArrowRight, "Right"), (KeyCode::PageDown, "Page Down")]),
+    (Command::Previous, "view before", &[(KeyCode::ArrowLeft, "Left"), (KeyCode::PageUp, "Page Up")]),
     (Command::Repaint, "fresh paint", &[(KeyCode::KeyR, "R")]),
     (Command::Help, "show or hide the list of keys", &[(KeyCode::KeyH, "H")]),
     (Command::Close, "close the window", &[(KeyCode::Escape, "Escape")]),

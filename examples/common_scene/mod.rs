@@ -9,8 +9,8 @@
 //!                    window: orbit camera, keys, read-out
 //! ```
 //!
-//! The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views, and its props, each with a
-//! [`paint::Paint`].
+//! [`scene::Scene`] takes this way. The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views, and
+//! its props, each with a [`paint::Paint`].
 
 #![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
 
@@ -24,6 +24,7 @@ pub mod keys;
 pub mod label;
 pub mod paint;
 pub mod picture;
+pub mod scene;
 pub mod sky;
 pub mod studio;
 pub mod window;

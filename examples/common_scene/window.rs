@@ -17,7 +17,7 @@ use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass, egui};
 pub struct Views {
     /// Names and places, in the order of their keys.
     pub list: Vec<(&'static str, Orbit)>,
-    /// Index of the first.
+    /// Index of the first, and then of the one that was chosen last.
     pub first: usize,
 }
 
@@ -80,6 +80,8 @@ fn obey_keys(
             Command::Step => step(&mut clock),
             Command::Faster => clock.age_per_second = (clock.age_per_second * 1.5).min(FASTEST),
             Command::Slower => clock.age_per_second = (clock.age_per_second / 1.5).max(SLOWEST),
+            // Another system turns the camera.
+            Command::Next | Command::Previous => {}
             Command::Repaint => commands.trigger(Repaint),
             Command::Help => help.0 = !help.0,
             Command::Close => {
@@ -89,13 +91,24 @@ fn obey_keys(
     }
 }
 
-fn look(keyboard: Res<ButtonInput<KeyCode>>, views: Res<Views>, mut cameras: Query<(&mut Orbit, &mut Projection)>) {
-    for ((_, view), key) in views.list.iter().zip(DIGITS) {
-        if keyboard.just_pressed(key) {
-            for (mut orbit, mut projection) in &mut cameras {
-                *orbit = *view;
-                *projection = view.projection();
-            }
+fn look(
+    keyboard: Res<ButtonInput<KeyCode>>,
+    mut views: ResMut<Views>,
+    mut cameras: Query<(&mut Orbit, &mut Projection)>,
+) {
+    let count = views.list.len();
+    for key in keyboard.get_just_pressed() {
+        let chosen = match keys::command(*key) {
+            Some(Command::Next) => Some(views.first + 1),
+            Some(Command::Previous) => Some(views.first + count.saturating_sub(1)),
+            _ => DIGITS.iter().position(|digit| digit == key).filter(|digit| *digit < count),
+        };
+        let Some(chosen) = chosen.map(|chosen| chosen % count.max(1)) else { continue };
+        let Some((_, view)) = views.list.get(chosen).cloned() else { continue };
+        views.first = chosen;
+        for (mut orbit, mut projection) in &mut cameras {
+            *orbit = view;
+            *projection = view.projection();
         }
     }
 }

@@ -17,21 +17,13 @@ mod stage;
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let folder = options.scene.folder("one_scale");
-    if !graphics::adapter_exists() {
-        return common_scene::bare::run(&folder, bare::pieces(&options));
-    }
-    let mut app = App::new();
-    if options.scene.pictures() || !graphics::display_exists() {
-        headless::add(&mut app, &options.scene, folder, stage::shots(&options));
-    } else {
-        let size = options.scene.size.map_or(stage::SIZE, UVec2::from);
-        window::add(&mut app, "One scale (M: rules by the grain or the paper's)", size, stage::views(&options));
-    }
+    let scene = Scene::new("one_scale", "One scale (M: rules by the grain or the paper's)", &options.scene);
+    let opened = scene.open(stage::SIZE, |_| stage::views(&options), || stage::shots(&options));
+    let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: stage::sun_direction() };
     app.add_plugins((paint::PaintPlugin, studio, stage::StagePlugin, props::PropsPlugin));

@@ -18,20 +18,14 @@ use bevy::prelude::*;
 use bevy_coating::CoatingPointingPlugin;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let folder = options.scene.folder("paint_brush");
-    if !graphics::adapter_exists() {
-        return common_scene::bare::run(&folder, bare::pieces(&options));
-    }
-    let mut app = App::new();
-    if options.scene.pictures() || !graphics::display_exists() {
-        headless::add(&mut app, &options.scene, folder, stage::shots(&options));
-    } else {
-        let size = options.scene.size.map_or(stage::SIZE, UVec2::from);
-        window::add(&mut app, "Paint brush (right button: weaken the paint, H: heat map)", size, stage::views());
+    let scene = Scene::new("paint_brush", "Paint brush (right button: weaken the paint, H: heat map)", &options.scene);
+    let opened = scene.open(stage::SIZE, |_| stage::views(), || stage::shots(&options));
+    let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
+    if scene.is_window() {
         app.add_plugins(CoatingPointingPlugin).add_systems(Startup, stage::take_brush);
     }
     app.insert_resource(options);

@@ -18,21 +18,13 @@ mod stage;
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let folder = options.scene.folder("presets");
-    if !graphics::adapter_exists() {
-        return common_scene::bare::run(&folder, bare::pieces(&options));
-    }
-    let mut app = App::new();
-    if options.scene.pictures() || !graphics::display_exists() {
-        headless::add(&mut app, &options.scene, folder, stage::shots(&options));
-    } else {
-        let size = options.scene.size.map_or(stage::SIZE, UVec2::from);
-        window::add(&mut app, "Presets", size, stage::views());
-    }
+    let scene = Scene::new("presets", "Presets", &options.scene);
+    let opened = scene.open(stage::SIZE, |_| stage::views(), || stage::shots(&options));
+    let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: stage::sun_direction() };
     app.add_plugins((paint::PaintPlugin, studio, stage::StagePlugin));

@@ -19,21 +19,13 @@ mod weather;
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{graphics, headless, paint, studio::StudioPlugin, window};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let folder = options.scene.folder("stains");
-    if !graphics::adapter_exists() {
-        return common_scene::bare::run(&folder, bare::pieces(&options));
-    }
-    let mut app = App::new();
-    if options.scene.pictures() || !graphics::display_exists() {
-        headless::add(&mut app, &options.scene, folder, stage::shots(&options));
-    } else {
-        let size = options.scene.size.map_or(stage::SIZE, UVec2::from);
-        window::add(&mut app, "Stains", size, stage::views(&options, size));
-    }
+    let scene = Scene::new("stains", "Stains", &options.scene);
+    let opened = scene.open(stage::SIZE, |size| stage::views(&options, size), || stage::shots(&options));
+    let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: weather::sun_direction() };
     app.add_plugins((paint::PaintPlugin, weather::WeatherPlugin, studio, stage::StagePlugin));

@@ -1,0 +1,55 @@
+//! What the window says of the figure that is looked at: the paper's statement, ours, and numbers of the films there.
+
+use crate::cli::Options;
+use crate::common_scene::window::Views;
+use crate::films::Wanted;
+use bevy::prelude::*;
+use bevy_coating::FilmSummary;
+use bevy_coating::prelude::*;
+use bevy_coating::sim::FilmClock;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+
+pub struct StatementPlugin;
+
+impl Plugin for StatementPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_systems(EguiPrimaryContextPass, show);
+    }
+}
+
+fn show(
+    mut contexts: EguiContexts,
+    views: Res<Views>,
+    options: Res<Options>,
+    wanted: Query<&Wanted>,
+    films: Query<(&FilmClock, &FilmSummary, &CoatedBy)>,
+) -> Result {
+    let figures = options.figures();
+    let Some(figure) = figures.get(views.first) else { return Ok(()) };
+    let window = egui::Window::new(format!("{}: {}", figure.number, figure.title)).id(egui::Id::new("statement"));
+    window.default_pos([900.0, 16.0]).default_width(340.0).show(contexts.ctx_mut()?, |ui| {
+        ui.label(format!("The paper: {}", figure.paper));
+        ui.separator();
+        ui.label(format!("Here: {}", figure.here));
+        ui.separator();
+        for (clock, summary, coated_by) in &films {
+            let Ok(Wanted { panel, figure: own }) = wanted.get(coated_by.0) else { continue };
+            if *own == figure.file {
+                ui.label(format!("{} (age {:.2}): {}", panel.exhibit.title, clock.age(), told(summary)));
+            }
+        }
+    });
+    Ok(())
+}
+
+/// The figures of a film that are told.
+fn told(summary: &FilmSummary) -> String {
+    let shares = &summary.shares;
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    format!(
+        "{} off the metal, {} gone, {:.1} m of cracks",
+        percent(shares.separated),
+        percent(shares.gone),
+        shares.crack_density * shares.area
+    )
+}
