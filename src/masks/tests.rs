@@ -2,7 +2,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use bevy_math::{Vec2, Vec3, Vec4};
+use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::{
@@ -192,7 +192,8 @@ fn ball(radius: f32, is_smooth: bool) -> Surface {
     let (around, down) = (32u32, 16u32);
     let point = |i: u32, j: u32| {
         let (turn, fall) = (TAU * i as f32 / around as f32, PI * j as f32 / down as f32);
-        radius * Vec3::new(fall.sin() * turn.cos(), fall.cos(), fall.sin() * turn.sin())
+        let [across, aside, along] = [ops::sin(fall), ops::sin(turn), ops::cos(turn)];
+        radius * Vec3::new(across * along, ops::cos(fall), across * aside)
     };
     let place = |i: u32, j: u32| match j {
         0 => 0,

@@ -41,6 +41,7 @@ impl Solid {
 
 /// Radius and height of points along the vase's outline: from the middle of its foot, over stem, belly, hoop, neck and
 /// lip, to the middle of the dish on top. Its bends are steep at the foot and the hoop, and gentle elsewhere.
+#[allow(clippy::approx_constant, reason = "radii of an outline, not shares of a circle")]
 const VASE: [[f32; 2]; 37] = [
     [0.0, 0.0],
     [0.12, 0.0],
