@@ -3,6 +3,7 @@
 
 mod imports;
 mod parse;
+mod readers;
 mod readme;
 mod rooms;
 mod text;
