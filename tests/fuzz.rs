@@ -55,6 +55,16 @@ fn settings() {
 }
 
 #[test]
+fn masks() {
+    run("masks", 256, bodies::masks);
+}
+
+#[test]
+fn extras() {
+    run("extras", 256, bodies::extras);
+}
+
+#[test]
 fn snapshot() {
     run("snapshot", 256, bodies::snapshot);
 }

@@ -4,6 +4,7 @@
 mod input;
 mod journey;
 mod saved;
+mod texts;
 
 use bevy_coating::{
     bake::{Images, Model},
@@ -18,6 +19,7 @@ use input::Input;
 
 pub use journey::journey;
 pub use saved::{recording, snapshot};
+pub use texts::{extras, masks};
 
 /// Makes a film of a mesh, and lets it age a little.
 pub fn film(bytes: &[u8]) {

@@ -401,6 +401,8 @@ fn every_preset_file_is_built_in() {
     let folder = "assets/presets";
     let mut files: Vec<_> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    // Masks are beside them.
+    files.retain(|file| file.ends_with(".coating.ron"));
     files.sort();
     assert_eq!(files, Preset::ALL.map(|preset| format!("{preset}.coating.ron")));
 }

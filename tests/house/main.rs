@@ -4,6 +4,7 @@
 mod imports;
 mod links;
 mod parse;
+mod readers;
 mod readme;
 mod rooms;
 mod text;
