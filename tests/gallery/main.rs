@@ -17,8 +17,8 @@ use measure::{
     spread::Spread,
 };
 
-/// Numbers that are known to lie outside of their bands, and are marked on the page: the bands are those of a prototype,
-/// which had a vase of its own.
+/// Numbers that are known to lie outside of their bands, and are marked on the page. The bands are those of a prototype
+/// that had a vase of its own.
 const OUT: [&str; 1] = ["shift of age on concave places, gamma 4"];
 
 #[test]
