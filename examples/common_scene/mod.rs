@@ -9,8 +9,8 @@
 //!                    window: orbit camera, keys, read-out
 //! ```
 //!
-//! [`scene::Scene`] takes this way. The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views, and
-//! its props, each with a [`paint::Paint`].
+//! [`scene::Scene`] takes this way. The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views,
+//! and its props, each with a [`paint::Paint`].
 
 #![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
 

@@ -59,7 +59,7 @@ fn the_page_has_its_times_and_pictures() {
         assert!(page.contains(&picture), "{picture} is not on the page");
         bytes += fs::metadata(&picture).unwrap_or_else(|error| panic!("{picture}: {error}")).len();
     }
-    assert!(bytes < 2_000_000, "pictures of {bytes} bytes are too large for a repository");
+    assert!(bytes < 1_700_000, "pictures of {bytes} bytes are too large for a repository");
 }
 
 /// What would make the test of bands pass whatever is measured.

@@ -25,8 +25,8 @@ deviations over five seeds.
 \"The paper's rules\" are `Preset::Paper`, which count in triangles; the default settings measure in metres.
 
 The paper gives few numbers. Bands are what it gives; figures of an independent prototype of its method, with the
-margins of those (fig. 8, fig. 17, sections 5.1 to 5.3); at least or at most, where it states a trend; and elsewhere wide
-bands of our own, which hold what one sees in the pictures.
+margins of those (fig. 8, fig. 17, sections 5.1 to 5.3); at least or at most, where it states a trend; and elsewhere
+wide bands of our own, which hold what one sees in the pictures.
 ";
 
 /// Measures all figures.
