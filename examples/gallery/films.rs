@@ -111,7 +111,7 @@ fn arrive(
         };
         match panel.look {
             Look::Wires => wires::draw(&mut commands, &mut meshes, &mut materials, (panel, *place, &film)),
-            Look::Cracks => wires::draw_cracks(&mut commands, &mut meshes, &mut materials, (*place, &film)),
+            Look::Cracks => wires::draw_cracks(&mut commands, &mut meshes, &mut materials, (panel, *place, &film)),
             Look::Paint | Look::Heat => {}
         }
         found.push((panel.clone(), film));

@@ -1,6 +1,7 @@
 //! Lines over films: of the mesh that is simulated and of what is drawn of it (VC fig. 18), and of cracks that do not
 //! open.
 
+use crate::measure::exhibit::Beginning;
 use crate::measure::figure::Panel;
 use bevy::asset::RenderAssetUsages;
 use bevy::light::NotShadowCaster;
@@ -57,17 +58,20 @@ fn lines(triangles: impl Iterator<Item = [u32; 3]>, place: impl Fn(u32) -> Vec3)
 const HALF_WIDTH: f32 = 0.003;
 const MARK: f32 = 0.012;
 
-/// Draws the cracks of a flat film that does not open, as ribbons, with a mark at each source of rust.
+/// Draws the cracks of a flat film that do not open, as ribbons; and a mark at the source of rust of a lone crack.
 pub fn draw_cracks(
     commands: &mut Commands,
     meshes: &mut Assets<Mesh>,
     materials: &mut Assets<StandardMaterial>,
-    (place, film): (Transform, &FilmState),
+    (panel, place, film): (&Panel, Transform, &FilmState),
 ) {
     let (topology, rest) = (&film.mesh.topology, &film.mesh.geometry.rest_positions);
-    let between = |h: HalfEdgeId| topology.rest_twin(h).is_some() && topology.is_torn(h);
+    let is_seen = |h: HalfEdgeId| {
+        let twin = topology.rest_twin(h).filter(|_| topology.is_torn(h));
+        twin.is_some_and(|twin| topology.is_live(h.face()) || topology.is_live(twin.face()))
+    };
     let mut ribbons = Vec::new();
-    for h in topology.all_edges().filter(|&h| between(h)) {
+    for h in topology.all_edges().filter(|&h| is_seen(h)) {
         let [a, b] = [topology.origin(h), topology.target(h)].map(|v| rest[v.index()]);
         let along = HALF_WIDTH * (b - a).normalize_or_zero();
         let aside = Vec3::Z.cross(along);
@@ -79,7 +83,8 @@ pub fn draw_cracks(
         let corners = [Vec3::NEG_X, Vec3::NEG_Y, Vec3::X, Vec3::Y];
         quad(corners.map(|corner| rest[v.index()] + MARK * corner))
     });
-    let marks: Vec<Vec3> = marks.collect();
+    let is_lone = matches!(panel.exhibit.beginning, Beginning::Cracked(_));
+    let marks: Vec<Vec3> = marks.filter(|_| is_lone).collect();
     for (triangles, color, ahead) in
         [(ribbons, Color::srgb(0.08, 0.09, 0.10), 0.002), (marks, Color::srgb(0.75, 0.10, 0.05), 0.003)]
     {

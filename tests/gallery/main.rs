@@ -17,10 +17,6 @@ use measure::{
     spread::Spread,
 };
 
-/// Numbers that are known to lie outside of their bands, and are marked on the page. The bands are those of a prototype
-/// that had a vase of its own.
-const OUT: [&str; 1] = ["shift of age on concave places, gamma 4"];
-
 #[test]
 fn every_number_is_in_its_band_and_on_the_page() {
     let measured = page::measure().expect("films");
@@ -29,7 +25,7 @@ fn every_number_is_in_its_band_and_on_the_page() {
         println!("{}: {}", figure.number, figure.title);
         for claim in claims {
             println!("  {claim}");
-            if claim.holds() == OUT.contains(&claim.what.as_str()) {
+            if !claim.holds() {
                 out.push(format!("{}: {claim}", figure.number));
             }
         }
@@ -63,7 +59,7 @@ fn the_page_has_its_times_and_pictures() {
         assert!(page.contains(&picture), "{picture} is not on the page");
         bytes += fs::metadata(&picture).unwrap_or_else(|error| panic!("{picture}: {error}")).len();
     }
-    assert!(bytes < 2_000_000, "pictures of {bytes} bytes are too large for a repository");
+    assert!(bytes < 1_700_000, "pictures of {bytes} bytes are too large for a repository");
 }
 
 /// What would make the test of bands pass whatever is measured.

@@ -20,8 +20,7 @@ const HEAD: &str = "# The paper and us, side by side
 
 Each figure of the paper, what it states in our words, and the same made here. This page and its pictures are written by
 `cargo run --example gallery -- --headless --page`. `cargo core --test gallery` measures all numbers again and fails if
-one of them differs from what is written here, or leaves its band, or comes into it where a row says \"out\". Where
-there is a ±, numbers are means and standard
+one of them differs from what is written here, or leaves its band. Where there is a ±, numbers are means and standard
 deviations over five seeds.
 \"The paper's rules\" are `Preset::Paper`, which count in triangles; the default settings measure in metres.
 

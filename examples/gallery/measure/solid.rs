@@ -39,52 +39,40 @@ impl Solid {
     }
 }
 
-/// Radius and height of points along the vase's outline: from the middle of its foot, over stem, belly, hoop, neck and
-/// lip, to the middle of the dish on top. Its bends are steep at the foot and the hoop, and gentle elsewhere.
-#[allow(clippy::approx_constant, reason = "radii of an outline, not shares of a circle")]
-const VASE: [[f32; 2]; 37] = [
+/// Radius and height of points along the vase's outline: from the middle of its foot, over stem, belly, neck and lip,
+/// to the middle of the dish on top. Its bends are gentle but for the foot.
+const VASE: [[f32; 2]; 23] = [
     [0.0, 0.0],
     [0.12, 0.0],
-    [0.185, 0.0],
-    [0.205, 0.012],
-    [0.205, 0.04],
-    [0.19, 0.052],
-    [0.13, 0.056],
-    [0.098, 0.062],
-    [0.092, 0.075],
-    [0.09, 0.13],
-    [0.11, 0.18],
-    [0.18, 0.26],
-    [0.25, 0.34],
-    [0.29, 0.43],
-    [0.297, 0.5],
-    [0.293, 0.545],
-    [0.292, 0.553],
-    [0.3, 0.558],
-    [0.318, 0.56],
-    [0.325, 0.566],
-    [0.325, 0.6],
-    [0.318, 0.606],
-    [0.29, 0.608],
-    [0.282, 0.613],
-    [0.277, 0.622],
-    [0.26, 0.655],
-    [0.225, 0.68],
-    [0.15, 0.7],
-    [0.122, 0.708],
-    [0.114, 0.72],
-    [0.112, 0.8],
-    [0.125, 0.87],
-    [0.165, 0.93],
-    [0.175, 0.95],
-    [0.165, 0.965],
+    [0.18, 0.0],
+    [0.203, 0.015],
+    [0.2, 0.045],
+    [0.165, 0.075],
+    [0.135, 0.1],
+    [0.127, 0.15],
+    [0.145, 0.21],
+    [0.185, 0.27],
+    [0.235, 0.34],
+    [0.275, 0.42],
+    [0.295, 0.5],
+    [0.29, 0.58],
+    [0.26, 0.66],
+    [0.215, 0.73],
+    [0.17, 0.79],
+    [0.15, 0.85],
+    [0.16, 0.9],
+    [0.185, 0.95],
+    [0.175, 0.967],
     [0.12, 0.95],
     [0.0, 0.935],
 ];
+/// Ribs around the lower part, where it bends steeply to both sides: height at which they begin, from rib to rib, their
+/// number, and how far they stand out.
+const RIBS: (f32, f32, f32, f32) = (0.10, 0.11, 3.0, 0.022);
 
 /// Makes the vase: one metre high, standing on the origin.
 pub fn vase() -> Surface {
-    const BETWEEN: usize = 6;
+    const BETWEEN: usize = 8;
     let point = |i: usize| Vec2::from(VASE[i.min(VASE.len() - 1)]);
     let mut outline = Vec::new();
     for i in 0..VASE.len() - 1 {
@@ -94,11 +82,20 @@ pub fn vase() -> Surface {
             // Catmull and Rom's spline.
             let bend = 2.0 * a - 5.0 * b + 4.0 * c - d + (3.0 * b - a - 3.0 * c + d) * t;
             let place = b + 0.5 * t * (c - a + t * bend);
-            outline.push(Vec2::new(place.x.max(0.0), place.y));
+            outline.push(Vec2::new((place.x + rib(place.y)).max(0.0), place.y));
         }
     }
     outline.push(point(VASE.len() - 1));
     turn(&outline, 120)
+}
+
+/// Returns how far the ribs stand out at a height; below 0 between them.
+fn rib(height: f32) -> f32 {
+    let (begin, wave, count, depth) = RIBS;
+    let at = (height - begin) / wave;
+    // They rise from nothing and end in it.
+    let share = if (0.0..=count).contains(&at) { 1.0 - ops::cos(TAU * at / count) } else { 0.0 };
+    -share.min(1.0) * depth * ops::cos(TAU * at)
 }
 
 /// Turns an outline, which begins and ends on the axis, around the y axis.

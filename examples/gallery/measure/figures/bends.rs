@@ -23,7 +23,7 @@ pub const PART: Figure = Figure {
     here: "A toothed wheel, remeshed once to 8,000 uniformly random triangles. The paper's rules, without stains.",
     view: View::Free { yaw: 0.45, pitch: 0.22 },
     columns: 5,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |age| Panel { level: 1, ..Panel::new(Exhibit { title: format!("age {age}"), ..part() }, age) };
         PART_AGES.map(panel).to_vec()
@@ -56,7 +56,7 @@ pub const DISK: Figure = Figure {
            rolls up; that is slow, and far from its end even after 100,000 sweeps.",
     view: View::Free { yaw: 0.0, pitch: 0.9 },
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let sweeps = ["1,000 sweeps", "10,000 sweeps", "100,000 sweeps"];
         let panel = |(age, title): (f64, &str)| Panel::new(Exhibit { title: title.to_owned(), ..disk::disk() }, age);
@@ -87,12 +87,13 @@ pub const VASE: Figure = Figure {
     title: "gamma, the effect of curvature",
     paper: "With gamma 1 curvature hardly matters even where the foot bends steeply; with 4 it shows even on gentle \
             curves; 2, in between, is chosen.",
-    here: "A vase with a steep foot and a gentle belly; 6,000 triangles, the paper's rules, age 0.5. The numbers are \
-           of paired runs: by how much earlier (-) or later (+) a place lets go than the same place without gamma. \
-           Convex and concave are places around which edges bend by more than 0.2 radians.",
+    here: "A vase with ribs and a steep foot below and gentle bends above; 6,000 triangles, the paper's rules, age \
+           0.5. The numbers are of paired runs to age 2: by how much earlier (-) or later (+) a place lets go than the \
+           same place without gamma. Convex and concave are places around which edges bend by more than 0.2 radians on \
+           the mean; where the prototype drew that line is not known.",
     view: View::Free { yaw: 0.3, pitch: 0.12 },
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |gamma: f32| {
             let vase = Shape::Vase(curvature::TRIANGLES);

@@ -38,7 +38,7 @@ pub const FEW: Figure = Figure {
            cracks; and the same with bending.",
     view: View::Wall,
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |(title, settings, look): (&str, CoatingSettings, Look)| Panel {
             look,
@@ -88,7 +88,7 @@ pub const MODELS: Figure = Figure {
            this repository); the paper's rules, age 0.9, without stains in the picture.",
     view: View::Free { yaw: -0.35, pitch: 0.12 },
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let all = [
             ("flat plate", Shape::Plate(3_012)),
@@ -131,7 +131,7 @@ pub const FINENESS: Figure = Figure {
            triangles by the default rules, which measure in metres and need no other alpha.",
     view: View::Wall,
     columns: 5,
-    width: 960,
+    width: 800,
     panels: || {
         let [coarse, fine] = PLATES;
         let mut straight = paper();
@@ -180,7 +180,7 @@ pub const CONTROL: Figure = Figure {
            when fresh, 4 at age 1) over the binding (6), cracks do not run on.",
     view: View::Wall,
     columns: 0,
-    width: 960,
+    width: 800,
     panels: Vec::new,
     claims: control,
 };
@@ -253,7 +253,7 @@ pub const AGES: Figure = Figure {
            an independent prototype.",
     view: View::Wall,
     columns: 0,
-    width: 960,
+    width: 800,
     panels: Vec::new,
     claims: || {
         let shares = trends::shares_by_age()?;

@@ -20,7 +20,7 @@ pub const CLOSE: Figure = Figure {
            0.85, seen from 20 centimetres.",
     view: View::Close { distance: 0.2, yaw: 0.35, at: [0.05, 0.05] },
     columns: 1,
-    width: 960,
+    width: 800,
     panels: || vec![Panel { level: 4, ..Panel::new(close(), 0.85) }],
     claims: || {
         let measures = close().measured(&[0.85])?;
@@ -52,7 +52,7 @@ pub const SIGN: Figure = Figure {
            shown by `cargo run --example city_sign`.",
     view: View::Free { yaw: 0.0, pitch: 0.0 },
     columns: 2,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |age: f64| Panel { level: 2, ..Panel::new(Exhibit { title: format!("age {age}"), ..sign() }, age) };
         [0.0, 0.75].map(panel).to_vec()
@@ -83,7 +83,7 @@ pub const STEERED: Figure = Figure {
            `cargo run --example paint_brush` does it with a brush.",
     view: View::Wall,
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |(age, title, look): (f64, &str, Look)| Panel {
             look,
@@ -114,7 +114,7 @@ pub const FINE: Figure = Figure {
            the lines of both meshes, green and grey.",
     view: View::Wall,
     columns: 3,
-    width: 1440,
+    width: 1100,
     panels: || {
         let panel = |(title, level, look): (&str, u32, Look)| Panel {
             look,

@@ -17,7 +17,7 @@ pub const RUN_OFF: Figure = Figure {
            and 1. A line is drawn along the crack, and a mark at its source. The numbers are at age 1.",
     view: View::Wall,
     columns: 3,
-    width: 960,
+    width: 800,
     panels: || {
         let panel = |age: f64| Panel {
             look: Look::Cracks,
@@ -54,7 +54,7 @@ pub const DUST: Figure = Figure {
            with the tenth where it wants least.",
     view: View::Free { yaw: 0.3, pitch: 0.3 },
     columns: 4,
-    width: 960,
+    width: 800,
     panels: || {
         let titles = ["height", "direction", "curvature", "all three"];
         let panel = |(factor, title): (Factor, &str)| {
