@@ -90,7 +90,8 @@ pub const VASE: Figure = Figure {
     here: "A vase with ribs and a steep foot below and gentle bends above; 6,000 triangles, the paper's rules, age \
            0.5. The numbers are of paired runs to age 2: by how much earlier (-) or later (+) a place lets go than the \
            same place without gamma. Convex and concave are places around which edges bend by more than 0.2 radians on \
-           the mean; where the prototype drew that line is not known.",
+           the mean; where the prototype drew that line, and on what shape, is not known: both were found by trial \
+           here.",
     view: View::Free { yaw: 0.3, pitch: 0.12 },
     columns: 3,
     width: 800,
