@@ -12,7 +12,7 @@ mod common;
 use std::fmt;
 
 use bevy_coating::{
-    appearance::{Detail, DisplayChanges, FilmAppearance},
+    appearance::{Detail, FilmAppearance},
     remesh::{BuiltFilm, FilmTarget, build_film, sample::TestPiece},
     settings::CoatingSettings,
     sim::FilmState,
@@ -92,20 +92,5 @@ fn show(bencher: Bencher, case: &Case) {
     let mut film = fresh(&piece.film, &settings);
     film.age_to(AGE, &settings, &environment);
     let begun = shown(&piece, &piece.film, &film, case.level);
-    let steps: Vec<(FilmState, DisplayChanges)> = (0..STEPS)
-        .map(|_| {
-            let mut changes = DisplayChanges::default();
-            changes.record(&film.changes, &film.stains);
-            changes.take();
-            film.step(&settings, &environment);
-            changes.record(&film.changes, &film.stains);
-            (film.clone(), changes.take())
-        })
-        .collect();
-    bencher.counter(ItemsCount::new(STEPS)).with_inputs(|| begun.clone()).bench_local_values(|mut shown| {
-        for (film, changes) in &steps {
-            shown.update(&film.mesh, &film.forces, &film.stains, *changes);
-        }
-        shown
-    });
+    common::follow(bencher, film, begun, &settings, STEPS, STEPS);
 }

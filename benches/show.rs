@@ -123,23 +123,7 @@ fn age(bencher: Bencher, level: u32, tolerance: f32) {
     let mut film = fresh(&piece);
     film.age_to(AGE, &settings, &environment);
     let begun = shown_within(&piece, &film, level, tolerance);
-    let steps: Vec<(FilmState, DisplayChanges)> = (0..STEPS)
-        .map(|_| {
-            let mut changes = DisplayChanges::default();
-            changes.record(&film.changes, &film.stains);
-            changes.take();
-            film.step(&settings, &environment);
-            changes.record(&film.changes, &film.stains);
-            (film.clone(), changes.take())
-        })
-        .collect();
-    let items = ItemsCount::new(SIZE as usize * STEPS);
-    bencher.counter(items).with_inputs(|| begun.clone()).bench_local_values(|mut shown| {
-        for (film, changes) in &steps {
-            shown.update(&film.mesh, &film.forces, &film.stains, *changes);
-        }
-        shown
-    });
+    common::follow(bencher, film, begun, &settings, STEPS, SIZE as usize * STEPS);
 }
 
 #[divan::bench]

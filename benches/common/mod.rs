@@ -7,10 +7,15 @@ use std::{
 };
 
 use bevy_coating::{
+    appearance::{DisplayChanges, FilmAppearance},
     deform::{FilmConstraints, update_constraints},
     film::{FilmChanges, FilmMesh, VertexId},
     remesh::sample::{self, TestPiece},
+    settings::CoatingSettings,
+    sim::FilmState,
+    stain::Environment,
 };
+use divan::{Bencher, counter::ItemsCount};
 
 /// Returns the flat test piece of so many triangles, with sides of 1.
 pub fn plate(triangles: u32) -> Arc<TestPiece> {
@@ -40,4 +45,31 @@ pub fn separated(triangles: u32, share: f32) -> (FilmMesh, FilmConstraints) {
     changes.separated.extend(left_share(&mesh, share));
     update_constraints(&mesh, &mut constraints, &changes);
     (mesh, constraints)
+}
+
+/// Measures bringing `shown` up to date after each of so many further steps of the film. `items` are counted for all.
+pub fn follow(
+    bencher: Bencher,
+    mut film: FilmState,
+    shown: FilmAppearance,
+    settings: &CoatingSettings,
+    steps: usize,
+    items: usize,
+) {
+    let steps: Vec<(FilmState, DisplayChanges)> = (0..steps)
+        .map(|_| {
+            let mut changes = DisplayChanges::default();
+            changes.record(&film.changes, &film.stains);
+            changes.take();
+            film.step(settings, &Environment::default());
+            changes.record(&film.changes, &film.stains);
+            (film.clone(), changes.take())
+        })
+        .collect();
+    bencher.counter(ItemsCount::new(items)).with_inputs(|| shown.clone()).bench_local_values(|mut shown| {
+        for (film, changes) in &steps {
+            shown.update(&film.mesh, &film.forces, &film.stains, *changes);
+        }
+        shown
+    });
 }

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! [`scene::Scene`] takes this way. The example itself brings a [`sky::Sky`] (or takes the [`studio`]'s), its views,
-//! and its props, each with a [`paint::Paint`].
+//! and its props, each with a [`paint::Paint`]; [`wall`] is what exhibits hang before.
 
 #![allow(dead_code, reason = "each example includes this folder as a module and uses a part of it")]
 
@@ -27,4 +27,5 @@ pub mod picture;
 pub mod scene;
 pub mod sky;
 pub mod studio;
+pub mod wall;
 pub mod window;

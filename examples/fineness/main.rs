@@ -16,7 +16,7 @@ mod stage;
 use bevy::prelude::*;
 use clap::Parser;
 use cli::Options;
-use common_scene::{paint, scene::Scene, studio::StudioPlugin};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin, wall};
 
 fn main() -> AppExit {
     let options = Options::parse();
@@ -24,7 +24,7 @@ fn main() -> AppExit {
     let opened = scene.open(stage::SIZE, |_| stage::views(), || stage::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
-    let studio = StudioPlugin { sun: stage::sun_direction() };
+    let studio = StudioPlugin { sun: wall::sun_direction() };
     app.add_plugins((paint::PaintPlugin, studio, stage::StagePlugin));
     app.run()
 }

@@ -5,6 +5,7 @@ use crate::common_scene::camera::Orbit;
 use crate::common_scene::headless::Shot;
 use crate::common_scene::label::Pen;
 use crate::common_scene::paint::{Loading, Paint};
+use crate::common_scene::wall;
 use crate::common_scene::window::Views;
 use crate::plates::{Plate, plates};
 use bevy::light::NotShadowCaster;
@@ -28,11 +29,6 @@ impl Plugin for StagePlugin {
     }
 }
 
-/// From where the sun shines, a unit vector: the upper left, so low that curled film casts shadows.
-pub fn sun_direction() -> Vec3 {
-    Vec3::new(-0.60, 0.50, 0.62).normalize()
-}
-
 /// Middle of a plate.
 fn place(plate: &Plate) -> Vec3 {
     let (x, y) = (plate.column as f32 - 1.0, 0.5 - plate.row as f32);
@@ -48,20 +44,11 @@ fn build(
     mut loading: ResMut<Loading>,
     options: Res<Options>,
 ) {
-    let wall = materials.add(StandardMaterial {
-        base_color: Color::linear_rgb(0.42, 0.42, 0.415),
-        perceptual_roughness: 0.9,
-        reflectance: 0.3,
-        ..default()
-    });
+    let wall = materials.add(wall::plaster());
     let board = meshes.add(Rectangle::new(30.0, 30.0));
     let behind = Transform::from_xyz(0.0, 0.0, -0.02);
     commands.spawn((Mesh3d(board), MeshMaterial3d(wall), behind, NotShadowCaster));
-    let paint = materials.add(StandardMaterial {
-        base_color: Color::srgb(0.62, 0.75, 0.74),
-        perceptual_roughness: 0.45,
-        ..default()
-    });
+    let paint = materials.add(wall::paint(wall::PALE_GREEN));
     let pen = Pen::default();
     for plate in plates(&options) {
         let middle = place(&plate);
@@ -79,22 +66,10 @@ fn build(
         }
         for (line, text) in [&plate.title, &plate.detail].into_iter().enumerate() {
             let label = pen.write(text, &mut images);
-            let ink = materials.add(StandardMaterial {
-                base_color: Color::linear_rgb(0.02, 0.02, 0.022),
-                base_color_texture: Some(label.image),
-                alpha_mode: AlphaMode::Blend,
-                perceptual_roughness: 0.9,
-                ..default()
-            });
             let width = LINE * label.aspect;
             let at = Vec3::new(width / 2.0 - 0.5, -0.5 - LINE * (0.7 + line as f32), -0.018);
-            let sheet = meshes.add(Rectangle::new(width, LINE));
-            commands.spawn((
-                Mesh3d(sheet),
-                MeshMaterial3d(ink),
-                Transform::from_translation(middle + at),
-                NotShadowCaster,
-            ));
+            let sheet = wall::sheet(label, LINE, &mut meshes, &mut materials);
+            commands.spawn((sheet, Transform::from_translation(middle + at)));
         }
     }
     (loading.props, loading.loaded) = (1, 1);

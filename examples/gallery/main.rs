@@ -23,7 +23,7 @@ use bevy::prelude::*;
 use bevy_coating::CoatingClock;
 use clap::Parser;
 use cli::Options;
-use common_scene::{paint, scene::Scene, studio::StudioPlugin};
+use common_scene::{paint, scene::Scene, studio::StudioPlugin, wall};
 
 fn main() -> AppExit {
     let options = Options::parse();
@@ -39,7 +39,7 @@ fn main() -> AppExit {
         app.add_systems(Startup, |mut clock: ResMut<CoatingClock>| clock.paused = true);
     }
     app.insert_resource(options.clone());
-    let studio = StudioPlugin { sun: stage::sun_direction() };
+    let studio = StudioPlugin { sun: wall::sun_direction() };
     app.add_plugins((paint::PaintPlugin, studio, stage::StagePlugin, films::FilmsPlugin));
     let exit = app.run();
     if exit.is_error() || scene.is_window() || !options.is_whole() {

@@ -5,6 +5,7 @@ use crate::common_scene::camera::Orbit;
 use crate::common_scene::headless::Shot;
 use crate::common_scene::label::Pen;
 use crate::common_scene::paint::{Loading, Paint};
+use crate::common_scene::wall;
 use crate::common_scene::window::Views;
 use crate::films::Wanted;
 use crate::labels;
@@ -38,11 +39,6 @@ impl Plugin for StagePlugin {
     fn build(&self, app: &mut App) {
         app.add_systems(Startup, build);
     }
-}
-
-/// From where the sun shines, a unit vector: the upper left, so low that curled film casts shadows.
-pub fn sun_direction() -> Vec3 {
-    Vec3::new(-0.60, 0.50, 0.62).normalize()
 }
 
 /// Figures that have a picture, in the paper's order.
@@ -186,23 +182,10 @@ fn build(
     assets: Res<AssetServer>,
     options: Res<Options>,
 ) {
-    let wall = materials.add(StandardMaterial {
-        base_color: Color::linear_rgb(0.42, 0.42, 0.415),
-        perceptual_roughness: 0.9,
-        reflectance: 0.3,
-        ..default()
-    });
-    let paint = materials.add(StandardMaterial {
-        base_color: Color::srgb(0.62, 0.75, 0.74),
-        perceptual_roughness: 0.45,
-        ..default()
-    });
+    let wall = materials.add(wall::plaster());
+    let paint = materials.add(wall::paint(wall::PALE_GREEN));
     // Stains show best on a light one.
-    let light = materials.add(StandardMaterial {
-        base_color: Color::srgb(0.80, 0.76, 0.66),
-        perceptual_roughness: 0.45,
-        ..default()
-    });
+    let light = materials.add(wall::paint(Color::srgb(0.80, 0.76, 0.66)));
     let sign = materials.add(StandardMaterial {
         base_color_texture: Some(assets.load("city/street_sign.png")),
         perceptual_roughness: 0.38,

@@ -1,6 +1,7 @@
 //! The cans: one for each preset, in a colour that such paint often has.
 
 use crate::cli::Options;
+use crate::common_scene::wall::PALE_GREEN;
 use crate::rounded_box::{Shape, rounded_box};
 use bevy::prelude::*;
 use bevy_coating::prelude::*;
@@ -16,19 +17,19 @@ const ROW: f32 = 0.96;
 pub const COLUMNS: usize = 6;
 
 /// Real paints below the paper's own, each with its colour.
-const CANS: [(Preset, [f32; 3]); 12] = [
-    (Preset::Paper, [0.62, 0.75, 0.74]),
-    (Preset::FewCracks, [0.62, 0.75, 0.74]),
-    (Preset::Gentle, [0.62, 0.75, 0.74]),
-    (Preset::Default, [0.62, 0.75, 0.74]),
-    (Preset::Heavy, [0.62, 0.75, 0.74]),
-    (Preset::Harsh, [0.62, 0.75, 0.74]),
-    (Preset::FreshEnamel, [0.62, 0.08, 0.06]),
-    (Preset::OldLeadPaint, [0.36, 0.46, 0.34]),
-    (Preset::ChalkyWhitewash, [0.86, 0.84, 0.79]),
-    (Preset::PowderCoat, [0.10, 0.25, 0.50]),
-    (Preset::Marine, [0.24, 0.32, 0.38]),
-    (Preset::DesertSun, [0.74, 0.62, 0.40]),
+const CANS: [(Preset, Color); 12] = [
+    (Preset::Paper, PALE_GREEN),
+    (Preset::FewCracks, PALE_GREEN),
+    (Preset::Gentle, PALE_GREEN),
+    (Preset::Default, PALE_GREEN),
+    (Preset::Heavy, PALE_GREEN),
+    (Preset::Harsh, PALE_GREEN),
+    (Preset::FreshEnamel, Color::srgb(0.62, 0.08, 0.06)),
+    (Preset::OldLeadPaint, Color::srgb(0.36, 0.46, 0.34)),
+    (Preset::ChalkyWhitewash, Color::srgb(0.86, 0.84, 0.79)),
+    (Preset::PowderCoat, Color::srgb(0.10, 0.25, 0.50)),
+    (Preset::Marine, Color::srgb(0.24, 0.32, 0.38)),
+    (Preset::DesertSun, Color::srgb(0.74, 0.62, 0.40)),
 ];
 
 /// A can with its paint.
@@ -43,11 +44,11 @@ pub struct Can {
 
 /// All cans, row by row from the upper left.
 pub fn cans() -> impl Iterator<Item = Can> {
-    CANS.into_iter().enumerate().map(|(i, (preset, [r, g, b]))| {
+    CANS.into_iter().enumerate().map(|(i, (preset, color))| {
         let (column, row) = (i % COLUMNS, i / COLUMNS);
         let x = (column as f32 - (COLUMNS as f32 - 1.0) / 2.0) * COLUMN;
         let place = Vec3::new(x, (0.5 - row as f32) * ROW, 0.0);
-        Can { preset, color: Color::srgb(r, g, b), place, seed: i as u64 }
+        Can { preset, color, place, seed: i as u64 }
     })
 }
 

@@ -6,6 +6,7 @@ use crate::common_scene::camera::Orbit;
 use crate::common_scene::headless::Shot;
 use crate::common_scene::label::Pen;
 use crate::common_scene::paint::{Loading, Paint};
+use crate::common_scene::wall;
 use crate::common_scene::window::Views;
 use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::prelude::*;
@@ -29,11 +30,6 @@ impl Plugin for StagePlugin {
     }
 }
 
-/// From where the sun shines, a unit vector: the upper left, so low that curled film casts shadows.
-pub fn sun_direction() -> Vec3 {
-    Vec3::new(-0.60, 0.50, 0.62).normalize()
-}
-
 fn build(
     mut commands: Commands,
     mut meshes: ResMut<Assets<Mesh>>,
@@ -42,12 +38,7 @@ fn build(
     mut loading: ResMut<Loading>,
     options: Res<Options>,
 ) {
-    let wall = materials.add(StandardMaterial {
-        base_color: Color::linear_rgb(0.42, 0.42, 0.415),
-        perceptual_roughness: 0.9,
-        reflectance: 0.3,
-        ..default()
-    });
+    let wall = materials.add(wall::plaster());
     // Shadows of cans on the wall would say nothing of their paint.
     let shadowless = (NotShadowCaster, NotShadowReceiver);
     let behind = Transform::from_xyz(0.0, 0.0, -0.4);
@@ -56,26 +47,17 @@ fn build(
     let turn = Quat::from_rotation_y(TURN.to_radians());
     let pen = Pen::default();
     for can in cans() {
-        let paint =
-            StandardMaterial { base_color: can.color, perceptual_roughness: 0.45, reflectance: 0.4, ..default() };
         commands.spawn((
             Name::new(can.preset.name()),
             Mesh3d(mesh.clone()),
-            MeshMaterial3d(materials.add(paint)),
+            MeshMaterial3d(materials.add(wall::paint(can.color))),
             Transform::from_translation(can.place).with_rotation(turn),
             Paint(can.coating(&options)),
         ));
         let label = pen.write(can.preset.name(), &mut images);
-        let ink = materials.add(StandardMaterial {
-            base_color: Color::linear_rgb(0.02, 0.02, 0.022),
-            base_color_texture: Some(label.image),
-            alpha_mode: AlphaMode::Blend,
-            perceptual_roughness: 0.9,
-            ..default()
-        });
-        let sheet = meshes.add(Rectangle::new(LINE * label.aspect, LINE));
+        let sheet = wall::sheet(label, LINE, &mut meshes, &mut materials);
         let below = Transform::from_translation(can.place - Vec3::Y * (HALF.y + 1.5 * LINE));
-        commands.spawn((Mesh3d(sheet), MeshMaterial3d(ink), below, NotShadowCaster));
+        commands.spawn((sheet, below));
     }
     (loading.props, loading.loaded) = (1, 1);
 }

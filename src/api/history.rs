@@ -12,8 +12,8 @@ use crate::history::DEFAULT_KEYFRAME_BYTES;
 /// [`CoatingCommands::age_to`](crate::CoatingCommands::age_to), and to a
 /// [target age](super::clock::CoatingClock::target_age) that lies in the past.
 ///
-/// What acts on a film from outside is logged, with the number of the step: settings, gravity and weather, quality,
-/// shelter, and [edits](crate::FilmEdit). Now and then the state of the film is kept. Both are done in the background,
+/// The log has all that acts on a film from outside, with the number of the step: settings, gravity and weather,
+/// quality, shelter, and [edits](crate::FilmEdit). Now and then the state of the film is kept. Both are done in the background,
 /// or cost next to nothing. A film that is built with this begins its history fresh, whatever its start age; one that
 /// was there before begins it where it is. The history ends when this is removed.
 ///

@@ -1,7 +1,7 @@
 //! Gives faces and rims their place in a part: a block of vertices and triangles that is theirs while they are shown.
 //!
-//! What goes leaves a hole of triangles without area, which the next one that comes takes, so nothing else is numbered
-//! afresh.
+//! A face that goes leaves a hole of triangles without area, which the next one that comes takes, so nothing else is
+//! numbered afresh.
 
 use super::part::MeshPart;
 

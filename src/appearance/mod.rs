@@ -232,7 +232,7 @@ impl FilmAppearance {
 
     /// Brings the parts up to date with the film, which has undergone `changes` since the last update.
     ///
-    /// What is shown of a face or vertex keeps its place in the parts' arrays, and only what changed is written. Under
+    /// Faces and vertices keep their places in the parts' arrays, and only what changed is written. Under
     /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's, everything is made again.
     pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields, changes: DisplayChanges) {
         let Self { levels: FilmLevels { face_slots, epoch, .. }, seen, shown, outdated, .. } = self;

@@ -174,7 +174,7 @@ pub(super) fn shown(part: &MeshPart) -> Vec<[Vec<u32>; 3]> {
     shown
 }
 
-/// What every part shows.
+/// Returns what every part shows.
 fn arrays(appearance: &FilmAppearance) -> Vec<Vec<[Vec<u32>; 3]>> {
     parts(appearance).into_iter().map(shown).collect()
 }

@@ -12,7 +12,7 @@ impl FilmForces {
     /// Returns the corners of new faces that are to be attached again, if these forces follow with the connectivity as
     /// it is, or `None` if they do not: where the film hangs loose, or where a free edge at the open border ends to be
     /// one.
-    pub(crate) fn take_attachable(&mut self, mesh: &FilmMesh, repaint: &Repaint) -> Option<Vec<VertexId>> {
+    pub(crate) fn find_attachable(&mut self, mesh: &FilmMesh, repaint: &Repaint) -> Option<Vec<VertexId>> {
         self.find_pieces(&mesh.topology);
         if repaint.faces.iter().any(|&f| self.predictions.pieces.attached_of(f) == 0) {
             return None;

@@ -154,7 +154,7 @@ impl FilmParts<'_> {
     /// Makes `faces` new if that changes no connectivity.
     fn renew_in_place(&mut self, faces: &[bool]) -> Renewed {
         let Some(repaint) = self.mesh.repaint(faces) else { return Renewed::No };
-        let Some(attach) = self.forces.take_attachable(self.mesh, &repaint) else { return Renewed::No };
+        let Some(attach) = self.forces.find_attachable(self.mesh, &repaint) else { return Renewed::No };
         if self.forces.repaint(self.mesh, &repaint, &attach).is_err() {
             return Renewed::No;
         }

@@ -68,15 +68,20 @@ impl FilmView<'_> {
                 (best, found) = (distance, Some((face, at)));
             }
         }
-        let (Face { id, corners, live }, at) = found?;
-        let distance = best.sqrt();
+        let (face, at) = found?;
+        Some(self.seen_from(point, face, at, best.sqrt()))
+    }
+
+    /// Describes the place `at` of a face as it is seen from a `point` in that distance.
+    pub(super) fn seen_from(&self, point: Vec3, face: Face, at: Vec3, distance: f32) -> FilmPoint {
+        let Face { id, corners, live } = face;
         if !live {
-            return Some(self.metal_point(id, corners, at, distance));
+            return self.metal_point(id, corners, at, distance);
         }
         let now = self.now(corners);
         let below = (point - triangle::at(now, at)).dot(triangle::normal(now)) < 0.0;
         let loose = corners.iter().any(|&v| self.has_separated(v));
-        Some(self.film_point(id, corners, at, below && loose, distance))
+        self.film_point(id, corners, at, below && loose, distance)
     }
 
     /// Returns a bound of the squared distance to the nearest place: a little more than that of the nearest of some

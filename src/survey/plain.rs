@@ -35,15 +35,8 @@ fn nearest(view: FilmView, point: Vec3, within: f32) -> Option<FilmPoint> {
             (best, found) = (distance, Some((face, at)));
         }
     }
-    let (Face { id, corners, live }, at) = found?;
-    let distance = best.sqrt();
-    if !live {
-        return Some(view.metal_point(id, corners, at, distance));
-    }
-    let now = view.now(corners);
-    let below = (point - triangle::at(now, at)).dot(triangle::normal(now)) < 0.0;
-    let loose = corners.iter().any(|&v| view.has_separated(v));
-    Some(view.film_point(id, corners, at, below && loose, distance))
+    let (face, at) = found?;
+    Some(view.seen_from(point, face, at, best.sqrt()))
 }
 
 /// Returns the first place that a ray meets.

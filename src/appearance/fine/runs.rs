@@ -1,7 +1,7 @@
 //! Gives faces and edges their places in a part: runs of vertices and triangles that are theirs while they are shown.
 //!
-//! What goes leaves a hole that the next one that comes takes, so nothing else is numbered afresh. All runs of a face
-//! are in one place, for they are looked up whenever it moves.
+//! A face that goes leaves a hole that the next one that comes takes, so nothing else is numbered afresh. All runs of a
+//! face are in one place, for they are looked up whenever it moves.
 
 use std::ops::Range;
 

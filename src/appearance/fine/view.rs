@@ -44,7 +44,7 @@ impl<'a> View<'a> {
         &self.mesh.topology
     }
 
-    #[inline(always)]
+    #[inline]
     pub fn pose(&self, v: VertexId) -> Pose<'a> {
         let (geometry, i) = (&self.mesh.geometry, v.index());
         Pose {
@@ -58,14 +58,14 @@ impl<'a> View<'a> {
 
     /// Returns the film at the corners of `f`.
     // Arrays are listed where speed counts: `map` is not always inlined.
-    #[inline(always)]
+    #[inline]
     pub fn poses(&self, f: FaceId) -> [Pose<'a>; 3] {
         let [a, b, c] = self.topology().corners(f);
         [self.pose(a), self.pose(b), self.pose(c)]
     }
 
     /// Returns the normals of the film at the corners of `f`.
-    #[inline(always)]
+    #[inline]
     pub fn normals(&self, f: FaceId) -> [Vec3A; 3] {
         let [a, b, c] = self.topology().corners(f);
         [self.normal(a), self.normal(b), self.normal(c)]

@@ -9,7 +9,7 @@ use crate::film::{FilmMesh, Topology, VertexId};
 /// Rotation of each vertex since rest: the smallest between the normals of its faces then and now.
 ///
 /// Both normals are means over the faces that the vertex has now, so a film at rest has not turned however it has torn.
-/// What lies on a vertex (the prop's own normals and tangents) turns with it.
+/// The prop's own normals and tangents at a vertex turn with it.
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Frames {
     /// Unit normal of each vertex at rest over the faces that it has now.

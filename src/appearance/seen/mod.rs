@@ -12,7 +12,7 @@ use frames::Frames;
 use looks::Looks;
 use moves::Moves;
 
-/// What was last seen of a film, and what has changed since.
+/// Film as it was last seen, and what has changed since.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seen {
     pub differences: Differences,
