@@ -23,8 +23,8 @@ const REVERSED: u32 = 1 << 31;
 
 /// Positions and attributes of the points of all faces at rest.
 ///
-/// Points that faces share are there once: a point on an edge belongs to both its faces, and a corner to all faces around it,
-/// unless a seam runs there.
+/// Points that faces share are there once: a point on an edge belongs to both its faces, and a corner to all faces
+/// around it, unless a seam runs there.
 #[derive(Clone, Debug, Default)]
 pub(in crate::appearance) struct Base {
     pub layout: Layout,
