@@ -14,8 +14,8 @@ use crate::history::DEFAULT_KEYFRAME_BYTES;
 ///
 /// The log has all that acts on a film from outside, with the number of the step: settings, gravity and weather,
 /// quality, shelter, and [edits](crate::FilmEdit). Now and then the state of the film is kept. Both are done in the
-/// background, or cost next to nothing. A film that is built with this begins its history fresh, whatever its start age; one that
-/// was there before begins it where it is. The history ends when this is removed.
+/// background, or cost next to nothing. A film that is built with this begins its history fresh, whatever its start
+/// age; one that was there before begins it where it is. The history ends when this is removed.
 ///
 /// ```
 /// use bevy::prelude::*;
