@@ -41,7 +41,8 @@ pub type StainedMaterial = ExtendedMaterial<StandardMaterial, StainExtension>;
 /// # assert_eq!(StainExtension::default().part, StainPart::Film);
 /// ```
 #[derive(Asset, AsBindGroup, Reflect, Clone, Debug, Default, PartialEq)]
-#[uniform(100, StainUniform)]
+#[data(50, StainUniform, binding_array(101))]
+#[bindless(index_table(range(50..51), binding(100)))]
 #[bind_group_data(StainPart)]
 #[reflect(Default, Debug, Clone, PartialEq)]
 #[type_path = "bevy_coating::display::material"]

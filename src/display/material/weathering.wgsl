@@ -2,6 +2,7 @@
 // shaders, as nothing here moves vertices or cuts holes.
 #import bevy_coating::shading::{StainSample, StainUniform, SurfaceShading, stained}
 #import bevy_pbr::{
+    mesh_bindings::mesh,
     mesh_functions,
     pbr_bindings,
     pbr_types,
@@ -31,7 +32,16 @@
 #import bevy_core_pipeline::oit::oit_draw
 #endif
 
-@group(#{MATERIAL_BIND_GROUP}) @binding(100) var<uniform> stain: StainUniform;
+#ifdef BINDLESS
+// Many materials in one bind group, so that Bevy draws many props at once. Of each, where its uniform is.
+struct StainIndices {
+    stain: u32,
+}
+@group(#{MATERIAL_BIND_GROUP}) @binding(100) var<storage> stain_indices: array<StainIndices>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(101) var<storage> stain_array: array<StainUniform>;
+#else
+@group(#{MATERIAL_BIND_GROUP}) @binding(50) var<uniform> stain_uniform: StainUniform;
+#endif
 
 const VIEW_SURFACE: u32 = 2u;
 const VIEW_NORMAL: u32 = 3u;
@@ -164,6 +174,14 @@ fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_fro
 #ifdef VISIBILITY_RANGE_DITHER
     visibility_range_dither(in.position, in.visibility_range_dither);
 #endif
+#ifdef BINDLESS
+    let slot = mesh[in.instance_index].material_and_lightmap_bind_group_slot & 0xffffu;
+    let stain = stain_array[stain_indices[slot].stain];
+    let own_color = pbr_bindings::material_array[pbr_bindings::material_indices[slot].material].base_color;
+#else
+    let stain = stain_uniform;
+    let own_color = pbr_bindings::material.base_color;
+#endif
     var pbr = pbr_input_from_standard_material(in, is_front);
     pbr.material.base_color = alpha_discard(pbr.material, pbr.material.base_color);
 
@@ -179,7 +197,7 @@ fn fragment(in: VertexOutput, extra: StainVarying, @builtin(front_facing) is_fro
     var base: SurfaceShading;
     base.base_color = pbr.material.base_color.rgb;
     if stain.alpha_only != 0u {
-        base.base_color = pbr_bindings::material.base_color.rgb;
+        base.base_color = own_color.rgb;
     }
     base.metallic = pbr.material.metallic;
     base.roughness = pbr.material.perceptual_roughness;

@@ -87,6 +87,7 @@ impl Soak {
             return;
         }
         let root = roots[self.rng.random_range(0..roots.len())];
+        self.journal.note(format!("{action:?} of {root}"));
         match action {
             Action::Clone if roots.len() < PROPS => self.clone_prop(root),
             Action::Spawn | Action::Clone => {}

@@ -8,7 +8,10 @@ mod actions;
 mod oracle;
 mod props;
 
-use std::time::{Duration, Instant};
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
 
 use bevy::{prelude::*, time::TimeUpdateStrategy};
 use bevy_coating::prelude::*;
@@ -75,6 +78,32 @@ struct Soak {
     oracle: Oracle,
     /// Films that were saved, with the prop that they are of.
     saved: Vec<(Entity, CoatingSnapshot)>,
+    journal: Journal,
+}
+
+/// What happened last, printed if the test fails: what depends on when a background task is done does not come back with
+/// the seed.
+#[derive(Default)]
+struct Journal(VecDeque<String>);
+
+impl Journal {
+    /// Number of entries that are kept.
+    const KEPT: usize = 400;
+
+    fn note(&mut self, entry: String) {
+        if self.0.len() == Self::KEPT {
+            self.0.pop_front();
+        }
+        self.0.push_back(entry);
+    }
+}
+
+impl Drop for Journal {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.iter().for_each(|entry| println!("{entry}"));
+        }
+    }
 }
 
 fn run(seed: u64) {
@@ -87,8 +116,14 @@ fn run(seed: u64) {
         app.update();
     }
     let baseline = counts(&app);
-    let mut soak =
-        Soak { app, rng: ChaCha8Rng::seed_from_u64(seed), palette, oracle: Oracle::default(), saved: Vec::new() };
+    let mut soak = Soak {
+        app,
+        rng: ChaCha8Rng::seed_from_u64(seed),
+        palette,
+        oracle: Oracle::default(),
+        saved: Vec::new(),
+        journal: Journal::default(),
+    };
     for _ in 0..EPISODES {
         for _ in 0..FRAMES {
             if soak.rng.random_bool(0.4) {
@@ -128,9 +163,12 @@ impl Soak {
         let frame = Duration::from_millis(self.rng.random_range(5..100));
         self.app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
         self.oracle.expect(&mut self.app, frame);
+        let clock = self.app.world().resource::<CoatingClock>().clone();
         self.app.update();
         // Builds and rays run in the background.
         std::thread::sleep(Duration::from_micros(500));
+        let status = self.app.world().resource::<CoatingStatus>();
+        self.journal.note(format!("frame of {frame:?}, {clock:?}, {status:?}, {}", self.oracle.describe(&self.app)));
         self.oracle.compare(&mut self.app);
     }
 

@@ -73,6 +73,16 @@ impl Oracle {
         self.rebuilding.contains(&root)
     }
 
+    /// Tells the steps that each film has taken, and those expected.
+    pub fn describe(&self, app: &App) -> String {
+        let film = |(&film, expected): (&Entity, &Expected)| {
+            let clock = app.world().get::<FilmClock>(film)?;
+            let root = expected.root;
+            Some(format!("{film}/{root} {} of {:.2} + {:.2}; ", clock.steps, expected.steps, expected.ahead))
+        };
+        self.films.iter().filter_map(film).collect()
+    }
+
     /// Adds the steps that every film should take in a frame of this length.
     pub fn expect(&mut self, app: &mut App, frame: Duration) {
         let world = app.world();
@@ -167,7 +177,9 @@ impl Oracle {
             }
             let cloned = app.world().get::<ClonedAt>(root).filter(|_| film == root);
             if let Some(cloned) = cloned {
-                assert!(clock.steps >= cloned.steps, "a clone is as old as its original");
+                // The original may have gone back in the frame in which its clone was made.
+                let original = app.world().get::<FilmClock>(cloned.of).map_or(0, |clock| clock.steps);
+                assert!(clock.steps >= cloned.steps.min(original), "a clone is as old as its original");
             }
             // What the original was owed when it was asked for, or in the frame in which the clone was made.
             let ahead = cloned.map_or(0.0, |cloned| {
