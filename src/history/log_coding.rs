@@ -38,7 +38,7 @@ pub fn code_conditions<C: Coder>(conditions: &mut Conditions, coder: &mut C) -> 
     Ok(())
 }
 
-/// Codes a log that begins at step `first` under `conditions`.
+/// Codes a log that begins at step `first` under `conditions`, of a film that began with so many vertices.
 ///
 /// # Errors
 /// [`Damage`] if it is none, or takes more memory than [`MOST_BYTES`].
@@ -46,10 +46,11 @@ pub fn code_log<C: Coder>(
     log: &mut Vec<LogEntry>,
     first: u64,
     conditions: &Conditions,
+    vertices: usize,
     coder: &mut C,
 ) -> Result<(), Damage> {
     let count = coder.length(log.len(), MOST_BYTES / size_of::<LogEntry>(), DAMAGED_LOG.0)?;
-    let mut coding = LogCoding::new(first, conditions);
+    let mut coding = LogCoding::new(first, conditions, vertices);
     let mut bytes = 0;
     if C::READS {
         for _ in 0..count {
@@ -79,6 +80,7 @@ struct LogCoding {
     conditions: Conditions,
     changed: Odds,
     environments: [Differences; 13],
+    vertices: usize,
     exposure: Exposure,
     exposures: Differences,
     /// Touched vertices, faces, edges; edges that were torn and faces that were cut out.
@@ -87,7 +89,7 @@ struct LogCoding {
 }
 
 impl LogCoding {
-    fn new(step: u64, conditions: &Conditions) -> Self {
+    fn new(step: u64, conditions: &Conditions, vertices: usize) -> Self {
         Self {
             step,
             steps: Differences::default(),
@@ -96,6 +98,7 @@ impl LogCoding {
             conditions: conditions.clone(),
             changed: Odds::default(),
             environments: Default::default(),
+            vertices,
             exposure: Exposure::default(),
             exposures: Differences::default(),
             touched: Default::default(),
@@ -129,7 +132,9 @@ impl LogCoding {
                 for (list, before) in
                     [(&mut exposure.rain, &self.exposure.rain), (&mut exposure.sun, &self.exposure.sun)]
                 {
-                    let count = coder.length(list.len(), most, DAMAGED_LOG.0)?;
+                    // What is said of others means nothing, and reading it would take long.
+                    list.truncate(self.vertices);
+                    let count = coder.length(list.len(), most.min(self.vertices), DAMAGED_LOG.0)?;
                     list.resize(count, 0.0);
                     for (i, share) in list.iter_mut().enumerate() {
                         coder.float(&mut self.exposures, share, before.get(i).copied().unwrap_or(1.0));

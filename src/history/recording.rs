@@ -142,7 +142,8 @@ fn begin(content: &[u8], mesh: &FilmMesh) -> Result<History, Damage> {
     code_conditions(&mut conditions, &mut reader)?;
     let (mut past, mut film) = Past::again(mesh, first, &conditions, DEFAULT_KEYFRAME_BYTES)?;
     let mut log = Vec::new();
-    code_log(&mut log, film.clock.steps, &conditions, &mut reader)?;
+    let vertices = mesh.topology.original_vertex_count();
+    code_log(&mut log, film.clock.steps, &conditions, vertices, &mut reader)?;
     reader.finish()?;
     past.set_log(log);
     let mut now = conditions;
@@ -187,12 +188,12 @@ impl Past {
         }
         let (mut conditions, mut log) = (self.first_conditions().clone(), self.log().to_vec());
         let first = self.keyframes().first().ok_or(RecordingError::Unrecordable { part: "its beginning" })?;
-        let mut writer = Writer::new();
+        let (mut writer, name) = (Writer::new(), self.mesh_name());
         code_conditions(&mut conditions, &mut writer).map_err(fail)?;
-        code_log(&mut log, first.step, &conditions, &mut writer).map_err(fail)?;
+        code_log(&mut log, first.step, &conditions, name.counts[0] as usize, &mut writer).map_err(fail)?;
         let length = u32::try_from(first.state.len()).map_err(|_| fail(CUT))?;
         let content = [&length.to_le_bytes()[..], &first.state, &writer.finish()].concat();
-        header::wrap(RECORDING, &self.mesh_name(), &content).map(Recording).map_err(fail)
+        header::wrap(RECORDING, &name, &content).map(Recording).map_err(fail)
     }
 }
 

@@ -1,6 +1,16 @@
 //! Decodes texture images of the prop and samples them.
 
-use bevy_math::{UVec2, Vec2, Vec4, ops};
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is read here comes from outside"
+    )
+)]
+
+use bevy_math::{IVec2, UVec2, Vec2, Vec4, ops};
 use zune_jpeg::{
     JpegDecoder,
     zune_core::{bytestream::ZCursor, colorspace::ColorSpace, options::DecoderOptions},
@@ -28,6 +38,13 @@ pub struct Texture {
 struct Level {
     size: UVec2,
     texels: Vec<[u8; 4]>,
+}
+
+impl Level {
+    /// Returns a texel; nothing beyond the edges.
+    fn texel(&self, x: u32, y: u32) -> [u8; 4] {
+        self.texels.get((y * self.size.x + x) as usize).copied().unwrap_or_default()
+    }
 }
 
 /// How a texture goes on beyond its edges.
@@ -93,7 +110,7 @@ impl Texture {
             for x in 0..size.x {
                 let at = |dx: u32, dy: u32| {
                     let p = UVec2::new(2 * x + dx, 2 * y + dy).min(level.size - 1);
-                    self.linear(level.texels[(p.y * level.size.x + p.x) as usize])
+                    self.linear(level.texel(p.x, p.y))
                 };
                 texels.push(self.encode((at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) * 0.25));
             }
@@ -103,8 +120,10 @@ impl Texture {
 
     fn linear(&self, texel: [u8; 4]) -> Vec4 {
         if self.srgb {
-            let [r, g, b] = [texel[0], texel[1], texel[2]].map(|c| SRGB.linear[usize::from(c)]);
-            Vec4::new(r, g, b, f32::from(texel[3]) / 255.0)
+            let [r, g, b, a] = texel;
+            #[expect(clippy::indexing_slicing, reason = "the table has a place for each byte")]
+            let [r, g, b] = [r, g, b].map(|c| SRGB.linear[usize::from(c)]);
+            Vec4::new(r, g, b, f32::from(a) / 255.0)
         } else {
             Vec4::from(texel.map(f32::from)) / 255.0
         }
@@ -121,6 +140,11 @@ impl Texture {
         let deepest = self.levels.len() - 1;
         // Nothing is blended until a sample stands for two texels.
         let lod = if footprint > 1.0 { ops::log2(footprint).min(deepest as f32) } else { 0.0 };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is a number from 0 to the deepest level"
+        )]
         let fine = lod as usize;
         let near = self.sample_level(fine, uv, wrap, nearest);
         let part = lod - fine as f32;
@@ -131,12 +155,9 @@ impl Texture {
     }
 
     fn sample_level(&self, level: usize, uv: Vec2, wrap: [Wrap; 2], nearest: bool) -> Vec4 {
-        let level = &self.levels[level];
+        let Some(level) = self.levels.get(level) else { return Vec4::ZERO };
         let size = level.size.as_ivec2();
-        let at = |x: i32, y: i32| {
-            let (x, y) = (wrapped(x, size.x, wrap[0]), wrapped(y, size.y, wrap[1]));
-            self.linear(level.texels[(y * size.x + x) as usize])
-        };
+        let at = |x: i32, y: i32| self.linear(level.texel(wrapped(x, size.x, wrap[0]), wrapped(y, size.y, wrap[1])));
         // Coordinates far out, in steps of more than a texel, are not worth more.
         let p = (uv * level.size.as_vec2()).clamp(Vec2::splat(-1e9), Vec2::splat(1e9));
         if nearest {
@@ -144,20 +165,22 @@ impl Texture {
             return at(p.x, p.y);
         }
         let (corner, part) = ((p - 0.5).floor(), (p - 0.5) - (p - 0.5).floor());
-        let (x, y) = (corner.x as i32, corner.y as i32);
+        let IVec2 { x, y } = corner.as_ivec2();
         at(x, y).lerp(at(x + 1, y), part.x).lerp(at(x, y + 1).lerp(at(x + 1, y + 1), part.x), part.y)
     }
 }
 
-fn wrapped(i: i32, size: i32, wrap: Wrap) -> i32 {
-    match wrap {
+/// Returns where the texel `i` of a row of `size` is: from 0 to below `size`.
+fn wrapped(i: i32, size: i32, wrap: Wrap) -> u32 {
+    let i = match wrap {
         Wrap::Repeat => i.rem_euclid(size),
         Wrap::Clamp => i.clamp(0, size - 1),
         Wrap::Mirror => {
             let i = i.rem_euclid(2 * size);
             i.min(2 * size - 1 - i)
         }
-    }
+    };
+    i.cast_unsigned()
 }
 
 fn decode_png(bytes: &[u8], most_texels: u64) -> Result<Level, String> {
@@ -186,7 +209,8 @@ fn decode_jpeg(bytes: &[u8], most_texels: u64) -> Result<Level, String> {
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(|error| error.to_string())?;
     let (width, height) = decoder.dimensions().ok_or("no size")?;
-    let (width, height) = (width as u32, height as u32);
+    // What has more than 32 bits is too large.
+    let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
     let texels = u64::from(width) * u64::from(height);
     check_size((width, height), most_texels, texels / JPEG_TEXELS_A_BYTE, bytes)?;
     let pixels = decoder.decode().map_err(|error| error.to_string())?;
@@ -234,11 +258,13 @@ static SRGB: std::sync::LazyLock<SrgbTable> = std::sync::LazyLock::new(|| {
 });
 
 /// Light as an sRGB byte.
+#[expect(clippy::cast_possible_truncation, reason = "there are 255 middles")]
 pub fn to_srgb(light: f32) -> u8 {
     SRGB.middles.partition_point(|&middle| middle < light) as u8
 }
 
 /// 0 to 1 as a byte.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is a number from 0 to 255.5")]
 pub fn to_byte(x: f32) -> u8 {
     // NaN becomes 0.
     (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
