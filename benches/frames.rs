@@ -168,8 +168,9 @@ fn build(studio: &mut Studio, wall: Wall, paint: Paint) {
                 .with_resolution(FilmResolution::Keep)
                 .with_seed(u64::from(index))
                 .with_start_age(AGE)
-                .with_stain_display(stains);
-            plate.insert(Coating { detail: Detail { level, pixels: 0.0, ..default() }, ..coating });
+                .with_stain_display(stains)
+                .with_detail(Detail { level, pixels: 0.0, ..default() });
+            plate.insert(coating);
         }
     }
     // A light of a street: its shadow maps cover the wall.

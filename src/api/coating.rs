@@ -268,6 +268,18 @@ impl Coating {
         Self { stain_display, ..self }
     }
 
+    /// Sets how finely paint is shown: [`detail`](Self::detail).
+    ///
+    /// ```
+    /// use bevy_coating::{appearance::Detail, prelude::*};
+    ///
+    /// let close_up = Coating::default().with_detail(Detail { level: 2, ..Detail::default() });
+    /// assert_eq!(close_up.detail.triangles(1_000), 16_000);
+    /// ```
+    pub fn with_detail(self, detail: Detail) -> Self {
+        Self { detail, ..self }
+    }
+
     /// Sets the whole [`shading`](Self::shading).
     ///
     /// ```

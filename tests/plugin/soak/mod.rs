@@ -81,8 +81,8 @@ struct Soak {
     journal: Journal,
 }
 
-/// What happened last, printed if the test fails: what depends on when a background task is done does not come back with
-/// the seed.
+/// What happened last, printed if the test fails: what depends on when a background task is done does not come back
+/// with the seed.
 #[derive(Default)]
 struct Journal(VecDeque<String>);
 
@@ -168,7 +168,8 @@ impl Soak {
         // Builds and rays run in the background.
         std::thread::sleep(Duration::from_micros(500));
         let status = self.app.world().resource::<CoatingStatus>();
-        self.journal.note(format!("frame of {frame:?}, {clock:?}, {status:?}, {}", self.oracle.describe(&self.app)));
+        let films = self.oracle.describe(&self.app);
+        self.journal.note(format!("frame of {frame:?}, {clock:?}, {status:?}, {films}"));
         self.oracle.compare(&mut self.app);
     }
 
