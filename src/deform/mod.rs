@@ -27,7 +27,6 @@ mod free_edges;
 mod half_space;
 mod ledger;
 mod length;
-mod mend;
 mod pace;
 mod packed;
 mod plain;

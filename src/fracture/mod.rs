@@ -27,7 +27,6 @@ mod event_queue;
 mod follow;
 mod forces;
 mod hold;
-mod mend;
 mod neck;
 mod neck_search;
 mod predictions;

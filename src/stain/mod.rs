@@ -22,7 +22,6 @@ pub mod exposure;
 mod fields;
 mod flow;
 mod layer;
-mod mend;
 mod moisture;
 mod outflow;
 mod places;

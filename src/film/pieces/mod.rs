@@ -7,7 +7,6 @@
 mod find;
 mod flood;
 mod loose;
-mod mend;
 #[cfg(test)]
 mod tests;
 mod track;
