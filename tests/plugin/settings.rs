@@ -173,3 +173,8 @@ fn every_setting_is_reflected() {
     assert_ne!(settings, CoatingSettings::default());
     assert_eq!(reflected.downcast_ref::<CoatingSettings>(), Some(&settings));
 }
+
+/// The table of the scene `settings`, with its test: a value that is out of range is found here.
+#[path = "../../examples/settings/rows.rs"]
+#[allow(dead_code, reason = "its test is all that is used")]
+mod rows;

@@ -1,0 +1,36 @@
+//! The pieces, for ageing them where nothing can be drawn.
+
+use crate::cli::Options;
+use crate::common_scene::bare::Piece;
+use crate::stage;
+use bevy_coating::{
+    bake::{BakeError, BakeOptions, Model, ModelMesh, Slot},
+    prelude::CoatingSettings,
+    stain::Environment,
+};
+
+pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
+    let mut pieces = Vec::new();
+    for page in options.pages() {
+        let weather = page.weather();
+        let environment = Environment { rain: weather.rain, sun: weather.sun, ..Environment::default() };
+        for row in page.rows() {
+            let settings = row.settings().expect("values that the unit test of the table has tried");
+            for (word, (_, settings)) in ["low", "middle", "high"].into_iter().zip(settings) {
+                let name = format!("settings_{}_{word}", row.path.replace('.', "_"));
+                pieces.push(piece(name, settings, environment, options));
+            }
+        }
+    }
+    Ok(pieces)
+}
+
+fn piece(name: String, settings: CoatingSettings, environment: Environment, options: &Options) -> Piece {
+    let mut model = Model { origin: name.clone(), ..Model::default() };
+    let material = Some(model.materials.add_plain_paint());
+    let slots = vec![Slot { material, uvs: true, ..Slot::default() }];
+    let surface = stage::shape().surface();
+    model.meshes.push(ModelMesh { name: name.clone(), surface, slots, ..ModelMesh::default() });
+    let (age, seed) = (options.age, options.scene.seed);
+    Piece { name, model, options: BakeOptions { settings, age, seed, environment, ..BakeOptions::default() } }
+}
