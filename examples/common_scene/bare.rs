@@ -2,7 +2,10 @@
 //! viewer opens, with the figures of the runs.
 
 use bevy::prelude::AppExit;
-use bevy_coating::bake::{BakeError, BakeOptions, Model, Progress, StagedFiles, StainOutput, Stopwatch, bake};
+use bevy_coating::bake::{
+    BakeError, BakeOptions, Model, ModelMesh, Progress, Slot, StagedFiles, StainOutput, Stopwatch, bake,
+};
+use bevy_coating::surface::Surface;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -12,6 +15,15 @@ pub struct Piece {
     pub name: String,
     pub model: Model,
     pub options: BakeOptions,
+}
+
+/// A model of one mesh in plain paint.
+pub fn plain_model(name: &str, surface: Surface) -> Model {
+    let mut model = Model { origin: name.into(), ..Model::default() };
+    let material = Some(model.materials.add_plain_paint());
+    let slots = vec![Slot { material, uvs: true, ..Slot::default() }];
+    model.meshes.push(ModelMesh { name: name.into(), surface, slots, ..ModelMesh::default() });
+    model
 }
 
 /// Says what to install, ages the pieces (or says why there are none) and writes them into `folder`.

@@ -2,19 +2,15 @@
 
 use crate::cans::{self, Can, cans};
 use crate::cli::Options;
-use crate::common_scene::bare::Piece;
-use bevy_coating::bake::{BakeError, BakeOptions, Model, ModelMesh, Slot};
+use crate::common_scene::bare::{Piece, plain_model};
+use bevy_coating::bake::{BakeError, BakeOptions};
 
 pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
     Ok(cans().map(|can| piece(&can, options)).collect())
 }
 
 fn piece(can: &Can, options: &Options) -> Piece {
-    let mut model = Model { origin: can.preset.name().into(), ..Model::default() };
-    let material = Some(model.materials.add_plain_paint());
-    let slots = vec![Slot { material, uvs: true, ..Slot::default() }];
-    let (name, surface) = (can.preset.name().into(), cans::shape().surface());
-    model.meshes.push(ModelMesh { name, surface, slots, ..ModelMesh::default() });
+    let model = plain_model(can.preset.name(), cans::shape().surface());
     let bake = BakeOptions {
         preset: can.preset.name().into(),
         settings: can.preset.into(),

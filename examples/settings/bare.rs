@@ -1,10 +1,10 @@
 //! The pieces, for ageing them where nothing can be drawn.
 
 use crate::cli::Options;
-use crate::common_scene::bare::Piece;
+use crate::common_scene::bare::{Piece, plain_model};
 use crate::stage;
 use bevy_coating::{
-    bake::{BakeError, BakeOptions, Model, ModelMesh, Slot},
+    bake::{BakeError, BakeOptions},
     prelude::CoatingSettings,
     stain::Environment,
 };
@@ -26,11 +26,7 @@ pub fn pieces(options: &Options) -> Result<Vec<Piece>, BakeError> {
 }
 
 fn piece(name: String, settings: CoatingSettings, environment: Environment, options: &Options) -> Piece {
-    let mut model = Model { origin: name.clone(), ..Model::default() };
-    let material = Some(model.materials.add_plain_paint());
-    let slots = vec![Slot { material, uvs: true, ..Slot::default() }];
-    let surface = stage::shape().surface();
-    model.meshes.push(ModelMesh { name: name.clone(), surface, slots, ..ModelMesh::default() });
+    let model = plain_model(&name, stage::shape().surface());
     let (age, seed) = (options.age, options.scene.seed);
     Piece { name, model, options: BakeOptions { settings, age, seed, environment, ..BakeOptions::default() } }
 }
