@@ -244,7 +244,7 @@ impl Soak {
     fn clone_prop(&mut self, root: Entity) {
         let world = self.app.world();
         let steps = world.get::<FilmClock>(root).map(|clock| clock.steps);
-        let owed = self.oracle.owed(root, steps.unwrap_or_default());
+        let owed = self.oracle.owed(root);
         let is_sound = world.get::<Coating>(root).is_some_and(|coating| coating.validate().is_ok());
         if !is_sound || world.get::<Trouble>(root).is_some() || self.oracle.may_be_rebuilt(root) {
             return;
@@ -253,9 +253,7 @@ impl Soak {
             builder.linked_cloning(true);
         });
         self.rebuilt(clone);
-        if let Some(steps) = steps {
-            self.app.world_mut().entity_mut(clone).insert(ClonedAt { of: root, steps, owed });
-        }
+        self.app.world_mut().entity_mut(clone).insert(ClonedAt { of: root, steps, owed });
     }
 
     fn despawn_part(&mut self, root: Entity) {

@@ -41,6 +41,8 @@ struct Expected {
     gain: f64,
     /// Number of frames for which the film may still be on its way to another age.
     travels: u32,
+    /// Steps that the film was owed at the end of the last frame.
+    owed: f64,
 }
 
 impl Oracle {
@@ -48,9 +50,11 @@ impl Oracle {
         self.films.values().any(|film| film.root == root)
     }
 
-    /// Returns the steps that the film on `root`, which has taken `steps`, is owed.
-    pub fn owed(&self, root: Entity, steps: u64) -> f64 {
-        self.films.get(&root).map_or(0.0, |film| (film.steps + film.ahead - steps as f64).max(0.0))
+    /// Returns the most steps that a clone which is made of a film of `root` in this frame, or was in the last, may be
+    /// owed: what the original was before this frame, and what the frame gave.
+    pub fn owed(&self, root: Entity) -> f64 {
+        let films = self.films.values().filter(|film| film.root == root);
+        films.map(|film| film.owed + film.gain).fold(0.0, f64::max)
     }
 
     /// Notes that the films of `root` may go to other ages, or wait until their past is kept.
@@ -161,6 +165,10 @@ impl Oracle {
             expected.waits &= behind;
         }
         self.find_films(app);
+        for (&film, expected) in &mut self.films {
+            let steps = app.world().get::<FilmClock>(film).expect("a clock").steps as f64;
+            expected.owed = (expected.steps + expected.ahead - steps).max(0.0);
+        }
         let parts: Vec<&ChildOf> =
             app.world_mut().query_filtered::<&ChildOf, With<CoatingPart>>().iter(app.world()).collect();
         for part in parts {
@@ -175,24 +183,22 @@ impl Oracle {
             if self.films.contains_key(&film) {
                 continue;
             }
-            let cloned = app.world().get::<ClonedAt>(root).filter(|_| film == root);
-            if let Some(cloned) = cloned {
+            let cloned = app.world().get::<ClonedAt>(root);
+            if let Some(&ClonedAt { of, steps: Some(steps), .. }) = cloned.filter(|_| film == root) {
                 // The original may have gone back in the frame in which its clone was made.
-                let original = app.world().get::<FilmClock>(cloned.of).map_or(0, |clock| clock.steps);
-                assert!(clock.steps >= cloned.steps.min(original), "a clone is as old as its original");
+                let original = app.world().get::<FilmClock>(of).map_or(0, |clock| clock.steps);
+                assert!(clock.steps >= steps.min(original), "a clone is as old as its original");
             }
             // What the original was owed when it was asked for, or in the frame in which the clone was made.
-            let ahead = cloned.map_or(0.0, |cloned| {
-                let steps = app.world().get::<FilmClock>(cloned.of).map_or(u64::MAX, |clock| clock.steps);
-                cloned.owed.max(self.owed(cloned.of, steps))
-            });
+            let ahead = cloned.map_or(0.0, |cloned| cloned.owed.max(self.owed(cloned.of)));
             let rate = app.world().get::<Coating>(root).map_or(0.0, |coating| coating.rate);
             let rate = if (0.0..=1000.0).contains(&rate) { rate } else { 1.0 };
             let root_entity = app.world().entity(root);
             let may_travel = root_entity.contains::<CoatingHistory>() || root_entity.contains::<CoatingSnapshot>();
             let travels = if may_travel || clock.sought().is_some() { 4 } else { 0 };
             let steps = clock.steps as f64;
-            let expected = Expected { root, steps, ahead, rate, waits: false, runs: false, gain: 0.0, travels };
+            let (waits, runs, gain, owed) = (false, false, 0.0, 0.0);
+            let expected = Expected { root, steps, ahead, rate, waits, runs, gain, travels, owed };
             self.films.insert(film, expected);
         }
     }

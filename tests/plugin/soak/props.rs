@@ -51,7 +51,8 @@ pub enum Trouble {
 #[derive(Component, Clone, Copy)]
 pub struct ClonedAt {
     pub of: Entity,
-    pub steps: u64,
+    /// Steps that the film on the root itself had taken, if there is one.
+    pub steps: Option<u64>,
     /// Steps that the original was owed, as it had to wait. The clone is owed them, too.
     pub owed: f64,
 }
