@@ -106,7 +106,7 @@ fn compare(mended: &FilmState, whole: &FilmState, is_new: &[bool]) -> Result<(),
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: std::env::var("MEND_CASES").map_or(32, |s| s.parse().unwrap()), ..ProptestConfig::default() })]
     #[test]
     fn a_ruin_is_mended_to_what_it_is_put_together_to(
         seed in 0u64..1_000,
