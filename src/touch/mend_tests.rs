@@ -106,18 +106,22 @@ fn compare(mended: &FilmState, whole: &FilmState, is_new: &[bool]) -> Result<(),
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: std::env::var("MEND_CASES").map_or(32, |s| s.parse().unwrap()), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig::with_cases(32))]
     #[test]
     fn a_ruin_is_mended_to_what_it_is_put_together_to(
         seed in 0u64..1_000,
         age in 0.2f64..1.1,
         by_grain in any::<bool>(),
-        strokes in prop::collection::vec((0u32..900, 0.02f32..0.3, 0u8..6), 1..6),
+        strokes in prop::collection::vec((0u32..900, 0.02f32..0.3, 0u8..6, 0u8..4), 1..6),
     ) {
         let (mut film, settings) = ruin(900, age, seed, if by_grain { Rules::Grain } else { Rules::Paper });
-        for (face, radius, steps) in strokes {
-            let touch = Touch::new(Site::new(FaceId(face.min(film.mesh.topology.face_count() as u32 - 1)), Vec3::ONE),
-                radius, Effect::Repaint);
+        for (face, radius, steps, damage) in strokes {
+            let site = Site::new(FaceId(face.min(film.mesh.topology.face_count() as u32 - 1)), Vec3::ONE);
+            let damage = [None, Some(Effect::Hit(40.0)), Some(Effect::Strip), None][usize::from(damage)];
+            if let Some(damage) = damage {
+                film.touch(&Touch::new(site, 0.5 * radius, damage), &settings, &ENVIRONMENT).unwrap();
+            }
+            let touch = Touch::new(site, radius, Effect::Repaint);
             let is_new = faces_of(&film, &touch);
             let mut whole = film.clone();
             whole.parts().renew_whole(&settings, &ENVIRONMENT, is_new.clone());
