@@ -73,7 +73,7 @@ fn repaint_loose(bencher: divan::Bencher, radius: f32) {
 }
 
 /// Paints over the ends of a crack, and over all.
-#[divan::bench(args = [0.1, 2.0])]
+#[divan::bench(args = [0.05, 0.1, 0.2, 2.0])]
 fn repaint_torn(bencher: divan::Bencher, radius: f32) {
     let film = film();
     let topology = &film.mesh.topology;

@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 
 use bevy_math::{Vec3, ops};
 
-use crate::film::{FilmMesh, Grain, HalfEdgeId, Topology, VertexId, words::Words};
+use crate::film::{FilmMesh, Grain, HalfEdgeId, Mend, Topology, VertexId, words::Words};
 
 /// Distance of the centroids of two regular faces, in edges: the unit of curvature.
 const REGULAR: f32 = 0.577_350_26;
@@ -117,6 +117,46 @@ impl CurlField {
                 ends.into_iter().for_each(|end| self.seed(mesh, end));
             }
         }
+    }
+
+    /// Lets vertex `to` have what `from` had, whose faces it takes.
+    pub fn take(&mut self, from: VertexId, to: VertexId) {
+        self.distances[to.index()] = self.distances[from.index()];
+        self.nearest[to.index()] = self.nearest[from.index()];
+    }
+
+    /// Forgets the free edges around the places of a mend, and every distance from them. What has another free edge
+    /// beside it carries that on next. All vertices at the places count as changed.
+    pub fn forget_around(&mut self, mesh: &FilmMesh, mend: &Mend) {
+        let (topology, rest) = (&mesh.topology, &mesh.geometry.rest_positions);
+        let bits = |p: Vec3| p.to_array().map(f32::to_bits);
+        let mut points: Vec<[u32; 3]> = mend.originals.iter().map(|v| bits(rest[v.index()])).collect();
+        points.sort_unstable();
+        // Nearly all others lie outside the box around these.
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for v in &mend.originals {
+            (low, high) = (low.min(rest[v.index()]), high.max(rest[v.index()]));
+        }
+        let is_in_box = |p: Vec3| p.cmpge(low).all() && p.cmple(high).all();
+        let mut forgotten = Vec::new();
+        for (i, (distance, nearest)) in self.distances.iter_mut().zip(&mut self.nearest).enumerate() {
+            if *distance < f32::INFINITY && is_in_box(*nearest) && points.binary_search(&bits(*nearest)).is_ok() {
+                (*distance, *nearest) = (f32::INFINITY, Vec3::ZERO);
+                forgotten.push(VertexId::new(i));
+            }
+        }
+        for &v in mend.here.iter().chain(&mend.left) {
+            (self.distances[v.index()], self.nearest[v.index()]) = (f32::INFINITY, Vec3::ZERO);
+            forgotten.push(v);
+        }
+        for &v in &forgotten {
+            for n in topology.fan(v).flat_map(|h| [topology.target(h), topology.apex(h)]) {
+                if self.distances[n.index()] < f32::INFINITY {
+                    self.queue.push_back(n);
+                }
+            }
+        }
+        self.changed.append(&mut forgotten);
     }
 
     /// Carries distances on over connected film.

@@ -2,7 +2,7 @@
 
 use super::{constraints::FilmConstraints, curl::CurlField};
 use crate::{
-    film::{FilmChanges, FilmMesh, VertexId},
+    film::{FilmChanges, FilmMesh, Mend, VertexId},
     settings::CoatingSettings,
 };
 
@@ -79,5 +79,46 @@ pub fn follow_free_edges(
     } else {
         field.for_changed(topology, |h, share| constraints.set_share(mesh, h, share));
     }
+    constraints.put_curl(field);
+}
+
+/// Brings the targets of bends in step with the free edges after a mend, as [`follow_free_edges`] does after fracture.
+pub(super) fn mend_free_edges(
+    mesh: &FilmMesh,
+    constraints: &mut FilmConstraints,
+    settings: &CoatingSettings,
+    mend: &Mend,
+) {
+    let topology = &mesh.topology;
+    let grain = settings.scale.grain_of(&mesh.geometry);
+    let is_of = |field: &CurlField| grain.is_some_and(|grain| field.is_of(mesh, grain, settings.deform.curl_reach));
+    let mut field = match constraints.take_curl() {
+        Some(field) if is_of(&field) => field,
+        other => {
+            // Distances are not known, or are measured by other rules: they are found for the whole film, or forgotten.
+            if let Some(other) = other {
+                constraints.put_curl(other);
+            }
+            let changes = FilmChanges { separated: mend.places.clone(), ..FilmChanges::default() };
+            return follow_free_edges(mesh, constraints, settings, &changes);
+        }
+    };
+    field.begin(topology);
+    for &[from, to] in &mend.moved {
+        field.take(from, to);
+    }
+    field.forget_around(mesh, mend);
+    let is_free = |v: VertexId| !constraints.is_attached(v);
+    for &f in mend.around.iter().filter(|&&f| topology.is_live(f)) {
+        for h in f.half_edges() {
+            if topology.is_torn(h) {
+                field.seed(mesh, topology.origin(h));
+                field.seed(mesh, topology.target(h));
+            }
+            field.seed_border(mesh, topology.origin(h), is_free);
+        }
+    }
+    field.spread(mesh);
+    field.for_changed(topology, |h, share| constraints.set_share(mesh, h, share));
     constraints.put_curl(field);
 }

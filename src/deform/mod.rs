@@ -27,6 +27,7 @@ mod free_edges;
 mod half_space;
 mod ledger;
 mod length;
+mod mend;
 mod pace;
 mod packed;
 mod plain;

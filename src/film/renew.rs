@@ -162,6 +162,8 @@ fn origins(old: &Topology, new: &Topology, faces: &[bool]) -> Vec<Origin> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -220,7 +222,37 @@ mod tests {
                 }
             }
             let whole = film.renew(vec![true; 30], Vec3::NEG_Y);
-            prop_assert_eq!(whole.mesh, built);
+            prop_assert_eq!(whole.mesh, built.clone());
+
+            // In place it comes to the same, but for the numbers of vertices.
+            let mut mended = film.clone();
+            let mend = mended.mend(renewed.clone());
+            mended.validate().unwrap();
+            let topology = &mended.topology;
+            let place = |film: &FilmMesh, h: HalfEdgeId| film.geometry.positions[film.topology.origin(h).index()];
+            prop_assert_eq!(&topology.fates, &new.fates);
+            prop_assert_eq!(topology.removed_face_count(), new.removed_face_count());
+            prop_assert_eq!(&topology.torn, &new.torn);
+            let mut names = BTreeSet::new();
+            for h in topology.all_half_edges().filter(|h| topology.is_live(h.face())) {
+                let v = topology.origin(h);
+                names.insert((v, new.origin(h)));
+                prop_assert_eq!(place(&mended, h), place(&renewal.mesh, h));
+                let is_new = renewal.origins[new.origin(h).index()] == Origin::New;
+                prop_assert_eq!(mend.fresh.contains(&v), is_new);
+                prop_assert_eq!(mend.here.contains(&v), mend.places.contains(&topology.original(v)));
+            }
+            let mended_names: BTreeSet<VertexId> = names.iter().map(|pair| pair.0).collect();
+            let new_names: BTreeSet<VertexId> = names.iter().map(|pair| pair.1).collect();
+            prop_assert_eq!([mended_names.len(), new_names.len()], [names.len(); 2], "each has one name in the other");
+            prop_assert!(mend.places.iter().all(|place| mend.fresh.contains(place)), "new paint has the originals");
+            mended.mend(vec![true; 30]);
+            mended.validate().unwrap();
+            let first = built.topology.vertex_count();
+            prop_assert_eq!(&mended.topology.origins, &built.topology.origins);
+            prop_assert_eq!(&mended.topology.fans[..first], &built.topology.fans[..]);
+            prop_assert!(mended.topology.fans[first..].iter().all(|&fan| fan == HalfEdgeId::NONE));
+            prop_assert_eq!(&mended.geometry.positions[..first], &built.geometry.positions[..]);
         }
     }
 }

@@ -4,10 +4,11 @@ use bevy_math::Vec3;
 
 use super::{
     forces::FilmForces,
+    relief::relieve_torn,
     scratch::FractureScratch,
     separation::let_go,
     stripping::{debris, strip, strip_if_free},
-    tear_edge::tear_edge,
+    tear_edge::{open_edge, tear_edge},
 };
 use crate::{
     film::{FaceId, FilmChanges, FilmMesh, HalfEdgeId, Topology, VertexId},
@@ -90,8 +91,7 @@ pub(crate) fn cut_out(
         }
         for h in f.half_edges() {
             let Some(h) = bound_edge(&mesh.topology, h) else { continue };
-            let (pieces, relief) = (&mut scratch.pieces, &mut scratch.relief);
-            tear_edge(mesh, forces, &settings.tearing, h, gravity, changes, pieces, relief);
+            open_edge(mesh, forces, &settings.tearing, h, gravity, changes, &mut scratch.pieces);
         }
         if !mesh.topology.is_cut_out(f) {
             // It was a piece of its own already, without an edge that could tear.
@@ -106,6 +106,7 @@ pub(crate) fn cut_out(
             strip_if_free(mesh, forces, f, changes);
         }
     }
+    relieve_torn(mesh, forces, &settings.tearing, &changes.torn, &mut scratch.relief);
     strip(mesh, forces, &settings.stripping, age, changes, scratch);
     forces.loose.retain_live(&mesh.topology, &mut scratch.pieces);
     true
@@ -166,14 +167,14 @@ pub(crate) fn strike(
         }
     }
     for h in torn {
-        let (pieces, relief) = (&mut scratch.pieces, &mut scratch.relief);
-        tear_edge(mesh, forces, &settings.tearing, h, gravity, changes, pieces, relief);
+        open_edge(mesh, forces, &settings.tearing, h, gravity, changes, &mut scratch.pieces);
     }
     if cut_out(mesh, forces, settings, gravity, age, &knocked, changes, scratch) {
         return true;
     }
     let gave = changes.separated.len() > before || !changes.torn.is_empty();
     if gave {
+        relieve_torn(mesh, forces, &settings.tearing, &changes.torn, &mut scratch.relief);
         strip(mesh, forces, &settings.stripping, age, changes, scratch);
     }
     gave
@@ -196,11 +197,11 @@ pub(crate) fn cut(
         for v in [mesh.topology.origin(edge), mesh.topology.target(edge)] {
             let_go(&mesh.topology, forces, v, age, changes);
         }
-        let (pieces, relief) = (&mut scratch.pieces, &mut scratch.relief);
-        tear_edge(mesh, forces, &settings.tearing, edge, gravity, changes, pieces, relief);
+        open_edge(mesh, forces, &settings.tearing, edge, gravity, changes, &mut scratch.pieces);
     }
     let cut = !changes.torn.is_empty();
     if cut {
+        relieve_torn(mesh, forces, &settings.tearing, &changes.torn, &mut scratch.relief);
         strip(mesh, forces, &settings.stripping, age, changes, scratch);
     }
     cut

@@ -27,6 +27,7 @@ mod event_queue;
 mod follow;
 mod forces;
 mod hold;
+mod mend;
 mod neck;
 mod neck_search;
 mod predictions;

@@ -44,11 +44,29 @@ impl ReliefScratch {
     }
 }
 
+/// Relieves the film beside edges that have just torn, as [`relieve_beside`] does beside each, on a film that is
+/// measured by its grain. Between two faces that are gone there is nothing to relieve.
+pub(super) fn relieve_torn(
+    mesh: &FilmMesh,
+    forces: &mut FilmForces,
+    settings: &TearingSettings,
+    torn: &[HalfEdgeId],
+    scratch: &mut ReliefScratch,
+) {
+    let Some(grain) = forces.grain() else { return };
+    let is_live = |h: HalfEdgeId| mesh.topology.is_live(h.face());
+    for &edge in torn {
+        if is_live(edge) || mesh.topology.rest_twin(edge).is_some_and(is_live) {
+            relieve_beside(mesh, forces, settings, grain, edge, scratch);
+        }
+    }
+}
+
 /// Relieves the faces on both sides of `edge`, which has just torn, as far as they are reached over film that is
 /// whole: at the distance d of a face's centroid from the edge, by the share c exp(-d / l) of the contraction that
 /// every face has gained, with c the [`relief`](TearingSettings::relief) and l the
 /// [`relief_reach`](TearingSettings::relief_reach) in grains. A face keeps the largest relief that it got.
-pub(super) fn relieve_beside(
+fn relieve_beside(
     mesh: &FilmMesh,
     forces: &mut FilmForces,
     settings: &TearingSettings,

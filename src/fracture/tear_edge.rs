@@ -5,14 +5,14 @@ use bevy_math::{Vec3, ops};
 use super::{
     balance::direction,
     forces::FilmForces,
-    relief::{ReliefScratch, relieve_beside},
+    relief::{ReliefScratch, relieve_torn},
 };
 use crate::{
     film::{FilmChanges, FilmMesh, HalfEdgeId, PieceScratch, TearEnd, VertexId},
     settings::TearingSettings,
 };
 
-/// Tears `edge` and keeps forces, predictions and `changes` in step.
+/// Tears `edge`, relieves the film beside it, and keeps forces, predictions and `changes` in step.
 pub(super) fn tear_edge(
     mesh: &mut FilmMesh,
     forces: &mut FilmForces,
@@ -23,13 +23,26 @@ pub(super) fn tear_edge(
     scratch: &mut PieceScratch,
     relief: &mut ReliefScratch,
 ) {
+    let torn = changes.torn.len();
+    open_edge(mesh, forces, settings, edge, gravity, changes, scratch);
+    relieve_torn(mesh, forces, settings, changes.torn.get(torn..).unwrap_or_default(), relief);
+}
+
+/// Does what [`tear_edge`] does, but relieves nothing by the grain's rules: where many edges tear at once,
+/// [`relieve_torn`] does that for all of them when all are torn.
+pub(super) fn open_edge(
+    mesh: &mut FilmMesh,
+    forces: &mut FilmForces,
+    settings: &TearingSettings,
+    edge: HalfEdgeId,
+    gravity: Vec3,
+    changes: &mut FilmChanges,
+    scratch: &mut PieceScratch,
+) {
     let (a, b) = (mesh.topology.origin(edge), mesh.topology.target(edge));
     let Some(twin) = mesh.topology.bound_twin(edge) else { return };
     let cracks = [a, b].map(|end| forces.tips[end.index()]);
     let Some(ends) = mesh.tear(edge, gravity) else { return };
-    if let Some(grain) = forces.grain() {
-        relieve_beside(mesh, forces, settings, grain, edge, relief);
-    }
     for h in [edge, twin] {
         if forces.grain().is_none() {
             forces.relieve(h.face(), settings.contraction_kept);

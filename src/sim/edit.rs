@@ -133,6 +133,8 @@ pub(crate) enum Renewed {
     No,
     /// In place: all elements have the numbers that they had. These vertices, which had separated, are attached again.
     InPlace(Vec<VertexId>),
+    /// In place, but edges are whole and faces are there that were not, and some of them have other vertices.
+    Mended,
     /// The film was put together again: vertices have other numbers.
     Whole,
 }
@@ -142,13 +144,36 @@ impl FilmParts<'_> {
     /// close, and they lie on the metal at rest, clean and with the forces of fresh paint. The film stays as it is if
     /// its parts were changed by hand so that no fresh film is known.
     ///
-    /// Where nothing is torn, it takes time in proportion to the faces, and a short pass over the film; otherwise the
-    /// film is put together again.
+    /// It takes time in proportion to the faces, and a short pass over the film. Where more than half of the film is
+    /// new, or painting has left many vertices without faces, the film is put together again.
     pub(crate) fn renew(&mut self, settings: &CoatingSettings, environment: &Environment, faces: Vec<bool>) -> Renewed {
         match self.renew_in_place(&faces) {
+            Renewed::No if self.is_mended_better(&faces) => self.mend(settings, environment, faces),
             Renewed::No => self.renew_whole(settings, environment, faces),
             in_place => in_place,
         }
+    }
+
+    /// Returns whether it is better to mend the film than to put it together again.
+    fn is_mended_better(&self, faces: &[bool]) -> bool {
+        let topology = &self.mesh.topology;
+        let originals = topology.original_vertex_count();
+        let duplicates = topology.vertex_count() - originals;
+        // A tear leaves two duplicates at most. The others have no use any more, but for those that fell.
+        let most = (originals + 2 * self.forces.torn_edges as usize).min(topology.half_edge_count() / 2);
+        let new = faces.iter().filter(|is_new| **is_new).count();
+        duplicates <= most && 2 * new <= faces.len()
+    }
+
+    /// Makes `faces` new where they are.
+    pub(crate) fn mend(&mut self, settings: &CoatingSettings, environment: &Environment, faces: Vec<bool>) -> Renewed {
+        let Ok(drawn) = self.forces.begin_mend(self.mesh) else { return Renewed::No };
+        let mend = self.mesh.mend(faces);
+        self.forces.mend(self.mesh, &mend, &drawn, self.clock.age() as f32, &mut self.scratch.fracture);
+        let forces = &*self.forces;
+        self.constraints.mend(self.mesh, &mend, settings, |v| forces.is_attached(v));
+        self.stains.mend(self.mesh, &mend, environment.gravity);
+        Renewed::Mended
     }
 
     /// Makes `faces` new if that changes no connectivity.

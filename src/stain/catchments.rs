@@ -1,6 +1,8 @@
 //! Adds up the lengths of cracks that drain to the same place.
 
-use crate::film::{VertexId, words::Words};
+use bevy_math::Vec3;
+
+use crate::film::{FilmMesh, VertexId, words::Words};
 
 /// Length of the cracks that drain to each place. A torn edge leads rust from its upper to its lower end; where several
 /// torn edges lead to the same place, their lengths add up.
@@ -18,6 +20,22 @@ impl Catchments {
     /// Creates the catchments of an uncracked film of `vertices` vertices.
     pub fn new(vertices: usize) -> Self {
         Self { drains: (0..vertices as u32).collect(), lengths: vec![0.0; vertices] }
+    }
+
+    /// Forgets all cracks.
+    pub fn clear(&mut self) {
+        self.drains.iter_mut().zip(0..).for_each(|(drain, own)| *drain = own);
+        self.lengths.fill(0.0);
+    }
+
+    /// Adds a torn edge of `length` metres between two original vertices, of which the one that lies further along
+    /// `gravity` is the lower; none if they lie equally deep.
+    pub fn drain(&mut self, mesh: &FilmMesh, ends: [VertexId; 2], gravity: Vec3, length: f32) {
+        let [a, b] = ends.map(|v| mesh.geometry.rest_positions[v.index()].dot(gravity));
+        if a != b {
+            let [upper, lower] = if a < b { ends } else { [ends[1], ends[0]] };
+            self.connect(upper, lower, length);
+        }
     }
 
     /// Adds a torn edge of `length` metres between two original vertices.

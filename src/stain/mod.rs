@@ -22,6 +22,7 @@ pub mod exposure;
 mod fields;
 mod flow;
 mod layer;
+mod mend;
 mod moisture;
 mod outflow;
 mod places;

@@ -121,6 +121,15 @@ impl Outflow {
                 *target = now;
             }
         }
+        // Where a crack has closed, what were two neighbours may be one, which takes the shares of both at once.
+        let (targets, mut seen) = (self.targets, 0);
+        let is_twice = targets.iter().take_while(|&&target| target != Target::NONE).any(|target| {
+            seen += 1;
+            targets[seen..].contains(target)
+        });
+        if is_twice {
+            return false;
+        }
         self.known = Known::All;
         true
     }
@@ -398,5 +407,8 @@ mod tests {
         assert!(way.rename(&ring) && !way.is_stale());
         assert!(way.ways().eq([(target(7), 0.5), (target(8), 0.25)]));
         assert!(!both.rename(&ring), "nobody knows how much goes to either side");
+        let mut closed = way;
+        closed.mark_renamed();
+        assert!(!closed.rename(&[7, 7, 9].map(|v| (target(v), Vec3::X)).to_vec()), "they are one again");
     }
 }

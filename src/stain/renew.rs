@@ -4,6 +4,7 @@ use super::{
     environment::Environment,
     fields::{RustSource, StainFields},
     layer::StainLayer,
+    sources::end_source,
     update::update_stains,
 };
 use crate::film::{FilmMesh, Origin, Renewal, VertexId};
@@ -24,6 +25,10 @@ impl StainFields {
                 continue;
             };
             new.sources[v] = self.sources[before.index()];
+            if !mesh.topology.has_faces(VertexId::new(v)) {
+                // A corner of faces that are gone. In a film that was mended, its name may be that of another fan now.
+                end_source(&mut new.sources[v]);
+            }
             take(&mut new.film, v, &self.film, before.index());
         }
         for v in 0..originals {

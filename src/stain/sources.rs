@@ -33,10 +33,7 @@ pub(super) fn judge(stains: &mut StainFields, mesh: &FilmMesh, ends: [TearEnd; 2
             _ => end_source(source),
         }
     }
-    if depths[0] != depths[1] {
-        let (upper, lower) = if depths[0] < depths[1] { (0, 1) } else { (1, 0) };
-        stains.catchments.connect(original(upper), original(lower), length);
-    }
+    stains.catchments.drain(mesh, [original(0), original(1)], gravity, length);
 }
 
 /// Ends a source, which becomes a past one. A vertex that was never a source stays so.

@@ -3,10 +3,11 @@
 use bevy_math::Vec3;
 
 use super::{
+    duplicates::Duplicates,
     fields::{RustSource, StainFields},
     sources::{end_source, judge},
 };
-use crate::film::{FilmChanges, FilmMesh, HalfEdgeId, TearEnd, VertexId, direction::unit_or_zero};
+use crate::film::{FilmChanges, FilmMesh, HalfEdgeId, TearEnd, Topology, VertexId, direction::unit_or_zero};
 
 /// Openness of the metal beside a crack or beside a bare place: rust creeps under the film.
 const BESIDE: f32 = 0.15;
@@ -69,12 +70,43 @@ pub fn update_stains(mesh: &FilmMesh, stains: &mut StainFields, changes: &FilmCh
 impl StainFields {
     /// Appends a duplicate of `kept` to all fields of the film. A duplicate of a source is a past one.
     fn duplicate(&mut self, kept: VertexId, original: VertexId) {
-        self.film.duplicate(kept.index());
         let was_source = self.sources[kept.index()] != RustSource::Never;
-        self.sources.push(if was_source { RustSource::Past } else { RustSource::Never });
+        self.append(kept.index(), original, if was_source { RustSource::Past } else { RustSource::Never });
+    }
+
+    /// Appends a duplicate of `original` with the stains of vertex `i`.
+    pub(super) fn append(&mut self, i: usize, original: VertexId, source: RustSource) {
+        self.film.duplicate(i);
+        self.sources.push(source);
         self.duplicates.append(original);
         self.flow.append(original);
     }
+}
+
+/// Returns the openness of the metal at `original` as the film is: what [`update_stains`] leads to where things only
+/// tear.
+pub(super) fn openness_at(topology: &Topology, duplicates: &Duplicates, original: VertexId) -> f32 {
+    let openness_of = |v: VertexId| {
+        let mut openness = 0.0;
+        for h in duplicates.rest_fan(topology, v) {
+            if !topology.is_live(h.face()) {
+                return BARE;
+            }
+            if topology.is_torn(h) || topology.is_torn(h.previous()) {
+                openness = IN_CRACK;
+            }
+        }
+        openness
+    };
+    let openness = openness_of(original);
+    if openness > 0.0 {
+        return openness;
+    }
+    // Two faces that follow each other share a neighbour; beyond the last one there is another only at the border.
+    let last = duplicates.rest_fan(topology, original).last().map(|h| topology.apex(h));
+    let around = duplicates.rest_fan(topology, original).map(|h| topology.target(h));
+    let beside = around.chain(last).map(|v| topology.original(v)).any(|v| openness_of(v) > 0.0);
+    if beside { BESIDE } else { 0.0 }
 }
 
 /// Updates what depends on connectivity at `original`: the areas of its film vertices, the openness of its metal, and

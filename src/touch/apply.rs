@@ -24,16 +24,16 @@ pub struct Touched {
     pub changes: FilmChanges,
     /// Whether there is new paint ([`Effect::Repaint`]).
     pub repainted: bool,
-    /// Whether the film was put together again for it, so that vertices have other numbers than before. It is not where
-    /// nothing was torn.
+    /// Whether edges or faces are whole for it that were not, so that faces may have other vertices than before. It is
+    /// not where nothing was torn.
     pub renewed: bool,
 }
 
 /// Touches a film between two steps. `settings` and `environment` are those under which it ages.
 ///
-/// The time is proportional to what the touch reaches and breaks, and to a short pass over the faces of the film. But
-/// [`Effect::Scratch`] looks at all edges (1 ms for 10,000 faces), and [`Effect::Repaint`] puts the whole film together
-/// again where anything under it is torn or gone (6 to 20 ms).
+/// The time is proportional to what the touch reaches, breaks and mends, and to a short pass over the faces of the
+/// film. But [`Effect::Scratch`] looks at all edges (1 ms for 10,000 faces), and [`Effect::Repaint`] puts the whole
+/// film together again where more than half of it is new, or painting has left many vertices without faces: 6 to 20 ms.
 ///
 /// # Errors
 /// [`TouchError`], with the film as it was, if a number of the touch is out of range or the film has no such face.
@@ -81,7 +81,7 @@ pub fn touch(
             let faces = faces_to_renew(&parts.mesh.topology, touch, &reach);
             let renewed = parts.renew(settings, environment, faces);
             touched.repainted = renewed != Renewed::No;
-            touched.renewed = renewed == Renewed::Whole;
+            touched.renewed = matches!(renewed, Renewed::Mended | Renewed::Whole);
             if let Renewed::InPlace(attached) = renewed {
                 touched.changes.moved = !attached.is_empty();
                 touched.changes.attached = attached;
@@ -133,8 +133,8 @@ fn loose_under(parts: &FilmParts, touch: &Touch, reach: &Reach) -> Vec<FaceId> {
 }
 
 impl FilmState {
-    /// Touches the film between two steps: see [`touch`]. Returns whether the film was put together again. What broke,
-    /// and what new paint attached again, is appended to [`FilmState::changes`].
+    /// Touches the film between two steps: see [`touch`]. Returns [`Touched::renewed`]. What broke, and what new paint
+    /// attached again, is appended to [`FilmState::changes`].
     ///
     /// # Errors
     /// [`TouchError`], with the film as it was, if a number of the touch is out of range or the film has no such face.

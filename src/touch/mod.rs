@@ -47,6 +47,8 @@ mod route;
 mod site;
 
 #[cfg(test)]
+mod mend_tests;
+#[cfg(test)]
 mod tests;
 
 pub use apply::{Touched, touch};

@@ -25,7 +25,7 @@ use super::{
     sleep::SleepMarks,
 };
 use crate::{
-    film::{FaceId, FilmMesh, Geometry, HalfEdgeId, LoosePieces, Topology, VertexId},
+    film::{FaceId, FilmMesh, Geometry, HalfEdgeId, LoosePieces, Mend, Topology, VertexId},
     settings::DeformSettings,
 };
 
@@ -200,6 +200,19 @@ impl FilmConstraints {
         self.packed.refresh(&mut self.ledger, topology, h);
     }
 
+    /// Returns whether the length constraint that `h` carries, if it is in a pack, refers to the vertices that `h` has.
+    pub(super) fn is_length_of(&self, topology: &Topology, h: HalfEdgeId) -> bool {
+        let ends = [topology.origin(h).0, topology.target(h).0];
+        let lane = self.ledger.lengths().lane(h);
+        lane.is_none_or(|lane| self.packed.length_in(topology, h, lane).vertices == ends)
+    }
+
+    /// Returns whether the bend constraint that `h` carries, if it is in a pack, refers to the vertices that `h` has.
+    pub(super) fn is_bend_of(&self, topology: &Topology, h: HalfEdgeId) -> bool {
+        let lane = self.ledger.bends().lane(h);
+        lane.is_none_or(|lane| self.packed.bend_in(topology, h, lane).vertices == bend_points(topology, h))
+    }
+
     /// Gives up packs that are nearly empty.
     pub(super) fn compact(&mut self, topology: &Topology) {
         self.packed.compact(&mut self.ledger, topology);
@@ -228,6 +241,28 @@ impl FilmConstraints {
             let position = geometry.positions[v.index()];
             points.put(v.index(), position, position);
             self.sleep.forget(v, position);
+        }
+    }
+
+    /// Lets the points follow a mend of the film: what has moved to another vertex goes on as it did, the metal holds
+    /// what is attached now, all else at the places is awake, and vertices without faces are gone.
+    pub(super) fn mend_points(&mut self, mesh: &FilmMesh, mend: &Mend, is_attached: impl Fn(VertexId) -> bool) {
+        let points = self.packed.points_mut();
+        mend.moved.iter().for_each(|[from, to]| points.put_like(to.index(), from.index()));
+        let held: Vec<VertexId> = mend.here.iter().copied().filter(|&v| is_attached(v)).collect();
+        mend.left.iter().for_each(|v| points.leave(v.index()));
+        self.hold(&mesh.geometry, &held);
+        for &v in &mend.left {
+            self.sleep.forget(v, mesh.geometry.positions[v.index()]);
+        }
+        let points = self.packed.points_mut();
+        for &v in mend.fresh.iter().filter(|&&v| !is_attached(v)) {
+            let position = mesh.geometry.positions[v.index()];
+            points.put(v.index(), position, position);
+        }
+        for &v in mend.here.iter().filter(|&&v| !is_attached(v)) {
+            self.packed.points_mut().wake(v.index());
+            self.sleep.mark(v, self.packed.points());
         }
     }
 

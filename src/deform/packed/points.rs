@@ -240,6 +240,16 @@ impl Points {
         self.motions[v] = Motion::Attached;
     }
 
+    /// Puts vertex `to` where `from` is, with its momentum.
+    pub fn put_like(&mut self, to: usize, from: usize) {
+        let (to, from) = (self.offsets[to].index(), self.offsets[from].index());
+        for list in [&mut self.now, &mut self.before] {
+            let Point([x, y, z, _]) = list[from];
+            let mass = list[to].0[3];
+            list[to] = Point([x, y, z, mass]);
+        }
+    }
+
     /// Brings the lists of awake points into the order of memory. What is done to each is the same in any order.
     pub fn sort(&mut self) {
         for awake in self.awake.iter_mut().filter(|awake| !awake.sorted) {

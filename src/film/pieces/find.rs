@@ -4,7 +4,10 @@ use super::{
     flood::PieceScratch,
     loose::{ListScratch, LoosePieces},
 };
-use crate::film::{handles::VertexId, topology::Topology};
+use crate::film::{
+    handles::{FaceId, VertexId},
+    topology::Topology,
+};
 
 impl LoosePieces {
     /// Searches the whole film and replaces the list by the loose pieces found. Returns the number of all pieces,
@@ -46,10 +49,15 @@ impl LoosePieces {
 
     /// Drops the pieces whose faces have been removed from the list.
     pub fn retain_live(&mut self, topology: &Topology, scratch: &mut PieceScratch) {
+        self.retain(scratch, |lowest| topology.is_live(lowest));
+    }
+
+    /// Drops the pieces from the list whose lowest face does not meet `stays`.
+    pub(super) fn retain(&mut self, scratch: &mut PieceScratch, stays: impl Fn(FaceId) -> bool) {
         let ListScratch { order, .. } = &mut scratch.lists;
         order.clear();
         for (i, piece) in self.iter().enumerate() {
-            if let Some(&lowest) = piece.faces.first().filter(|&&f| topology.is_live(f)) {
+            if let Some(&lowest) = piece.faces.first().filter(|&&f| stays(f)) {
                 order.push((lowest, false, i as u32));
             }
         }

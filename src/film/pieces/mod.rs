@@ -7,6 +7,7 @@
 mod find;
 mod flood;
 mod loose;
+mod mend;
 #[cfg(test)]
 mod tests;
 mod track;

@@ -140,6 +140,56 @@ impl FilmPieces {
         }
     }
 
+    /// Returns the index of the piece of `f`, which must be live.
+    pub(super) fn id(&self, f: FaceId) -> u32 {
+        self.of[f.index()]
+    }
+
+    /// Puts `f` into the piece at index `id`.
+    pub(super) fn put(&mut self, f: FaceId, id: u32) {
+        self.of[f.index()] = id;
+    }
+
+    /// Makes `f` a piece of its own, which nothing holds.
+    pub(super) fn begin_piece(&mut self, f: FaceId) {
+        self.put(f, self.pieces.len() as u32);
+        self.pieces.push(Piece::default());
+    }
+
+    /// Returns the number of attached vertices of the piece at index `id`.
+    pub(super) fn attached(&self, id: u32) -> u32 {
+        self.pieces[id as usize].attached
+    }
+
+    /// Counts one attached vertex more in the piece of `f`, or one less.
+    pub(super) fn attach(&mut self, f: FaceId, is_attached: bool) {
+        let attached = &mut self.piece_mut(f).attached;
+        *attached = if is_attached { *attached + 1 } else { attached.saturating_sub(1) };
+    }
+
+    /// Counts the attached vertices of the piece at index `id` as those of `taker`.
+    pub(super) fn take_attached(&mut self, id: u32, taker: u32) {
+        let taken = core::mem::take(&mut self.pieces[id as usize].attached);
+        self.pieces[taker as usize].attached += taken;
+    }
+
+    /// Puts the pieces of `faces` into the list of loose pieces, from which they were taken, where they are loose.
+    pub(super) fn list_again(
+        &mut self,
+        topology: &Topology,
+        loose: &mut LoosePieces,
+        scratch: &mut PieceScratch,
+        faces: &[FaceId],
+    ) {
+        self.changed.retain(|&f| topology.is_live(f));
+        // New paint may hold by now what had come loose.
+        let mut changed = core::mem::take(&mut self.changed);
+        changed.retain(|&f| self.attached_of(f) == 0);
+        self.changed = changed;
+        faces.iter().for_each(|&f| self.note(f));
+        self.renew(topology, loose, scratch);
+    }
+
     /// Brings the list of loose pieces up to date.
     ///
     /// Pieces that tears and separations changed are searched again; the others are copied. A piece that was removed

@@ -54,6 +54,22 @@ impl DustRates {
         }
     }
 
+    /// Lets vertex `to` have the rate of `from`, whose faces it takes.
+    pub fn take(&mut self, from: usize, to: usize) {
+        for list in [&mut self.rates, &mut self.left] {
+            if let Some(&rate) = list.get(from)
+                && let Some(taken) = list.get_mut(to)
+            {
+                *taken = rate;
+            }
+        }
+        if let Some(&seen) = self.seen.get(from)
+            && let Some(taken) = self.seen.get_mut(to)
+        {
+            *taken = seen;
+        }
+    }
+
     /// Appends the rates and what they were computed for, which is kept through small changes.
     pub fn write_state(&self, to: &mut Words) {
         // The shares that are left after a tick follow from rates, basis and tick.
