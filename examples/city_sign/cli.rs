@@ -9,7 +9,7 @@ use clap::{Parser, ValueEnum};
 
 /// A painted street sign on a corner of a ruined city, ageing.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "city_sign", about, after_help = keys::help(&views::NAMES))]
+#[command(name = "city_sign", about, after_help = keys::help(&views::NAMES, &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

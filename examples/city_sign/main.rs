@@ -22,7 +22,7 @@ use common_scene::{paint, scene::Scene};
 fn main() -> AppExit {
     let options = Options::parse();
     let scene = Scene::new("city_sign", "City sign", &options.scene);
-    let opened = scene.open(views::SIZE, |_| views::views(&options), || views::shots(&options));
+    let opened = scene.open(|_| views::views(&options), || views::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     app.add_plugins((scene::ScenePlugin, props::PropsPlugin, paint::PaintPlugin, debris::DebrisPlugin));

@@ -37,9 +37,21 @@ const COMMANDS: [(Command, &str, &[(KeyCode, &str)]); 9] = [
     (Command::Close, "close the window", &[(KeyCode::Escape, "Escape")]),
 ];
 
-/// What the mouse does.
+/// What the mouse does, and what it does where the scene has a use for the right button.
 const MOUSE: [(&str, &str); 3] =
     [("Left drag", "turn around the scene"), ("Right or middle drag", "shift it"), ("Wheel", "zoom")];
+const MOUSE_WITHOUT_RIGHT: [(&str, &str); 3] = [MOUSE[0], ("Middle drag", MOUSE[1].1), MOUSE[2]];
+
+/// A movement of the mouse that a scene may have a use of its own for.
+pub const RIGHT_DRAG: &str = "Right drag";
+
+/// Keys and movements of the mouse that only one scene has, with their meanings.
+pub type Own = &'static [(&'static str, &'static str)];
+
+/// Whether the right button is the scene's.
+pub fn right_is_taken(own: Own) -> bool {
+    own.iter().any(|(keys, _)| *keys == RIGHT_DRAG)
+}
 
 /// Keys of the views.
 pub const DIGITS: [KeyCode; 9] = [
@@ -60,19 +72,21 @@ pub fn command(key: KeyCode) -> Option<Command> {
     COMMANDS.iter().find(|(_, _, keys)| is_one_of(keys)).map(|(command, ..)| *command)
 }
 
-/// Every key and mouse movement with its meaning. The digits choose `views`.
-pub fn list(views: &[&str]) -> Vec<(String, String)> {
+/// Every key and mouse movement with its meaning: those of all scenes, of which the digits choose `views`, and then the
+/// scene's `own`.
+pub fn list(views: &[&str], own: Own) -> Vec<(String, String)> {
     let views = views.iter().zip(1..=DIGITS.len()).map(|(view, digit)| (digit.to_string(), format!("view: {view}")));
     let commands = COMMANDS.iter().map(|(_, meaning, keys)| {
         let keys: Vec<&str> = keys.iter().map(|(_, name)| *name).collect();
         (keys.join(", "), (*meaning).to_owned())
     });
-    let mouse = MOUSE.iter().map(|(movement, meaning)| ((*movement).to_owned(), (*meaning).to_owned()));
+    let mouse = if right_is_taken(own) { &MOUSE_WITHOUT_RIGHT } else { &MOUSE };
+    let mouse = mouse.iter().chain(own).map(|(movement, meaning)| ((*movement).to_owned(), (*meaning).to_owned()));
     views.chain(commands).chain(mouse).collect()
 }
 
 /// The same list as text for the command line's help.
-pub fn help(views: &[&str]) -> String {
-    let lines = list(views).into_iter().map(|(keys, meaning)| format!("\n  {keys:<20} {meaning}"));
+pub fn help(views: &[&str], own: Own) -> String {
+    let lines = list(views, own).into_iter().map(|(keys, meaning)| format!("\n  {keys:<20} {meaning}"));
     format!("Keys of the window:{}", lines.collect::<String>())
 }

@@ -2,6 +2,7 @@
 
 use super::cli::SceneArgs;
 use super::headless::{self, Shot};
+use super::keys::Own;
 use super::window::{self, Views};
 use super::{bare, graphics};
 use bevy::prelude::*;
@@ -16,11 +17,27 @@ pub struct Scene<'a> {
     title: &'a str,
     args: &'a SceneArgs,
     is_window: bool,
+    keys: Own,
+    covered_below: f32,
 }
+
+/// Size of a window, in pixels: it fits on the displays of small computers.
+const WINDOW: UVec2 = UVec2::new(1280, 720);
 
 impl<'a> Scene<'a> {
     pub fn new(name: &'a str, title: &'a str, args: &'a SceneArgs) -> Self {
-        Self { name, title, args, is_window: !args.pictures() && graphics::display_exists() }
+        let is_window = !args.pictures() && graphics::display_exists();
+        Self { name, title, args, is_window, keys: &[], covered_below: 0.0 }
+    }
+
+    /// Sets the keys that this scene alone has.
+    pub fn with_keys(self, keys: Own) -> Self {
+        Self { keys, ..self }
+    }
+
+    /// Sets the height that the scene covers at the bottom of its window, in logical pixels.
+    pub fn with_covered_below(self, covered_below: f32) -> Self {
+        Self { covered_below, ..self }
     }
 
     /// Where pictures go.
@@ -33,21 +50,20 @@ impl<'a> Scene<'a> {
         self.is_window
     }
 
-    /// An app with the window, of so many pixels where the command line asks for no other, or with a camera that takes
-    /// the `shots`. `None` where nothing can be drawn.
-    pub fn open(
-        &self,
-        size: UVec2,
-        views: impl FnOnce(UVec2) -> Views,
-        shots: impl FnOnce() -> Vec<Shot>,
-    ) -> Option<App> {
+    /// An app with a window, or with a camera that takes the `shots`. `views` are those of a picture of so many pixels:
+    /// what read-outs leave free of the window. `None` where nothing can be drawn.
+    pub fn open(&self, views: impl FnOnce(UVec2) -> Views, shots: impl FnOnce() -> Vec<Shot>) -> Option<App> {
         if !graphics::adapter_exists() {
             return None;
         }
         let mut app = App::new();
         if self.is_window {
-            let size = self.args.size.map_or(size, UVec2::from);
-            window::add(&mut app, self.title, size, views(size));
+            let size = self.args.size.map_or(WINDOW, UVec2::from);
+            let free = window::free_part(size.as_vec2(), self.covered_below);
+            let mut views = views(free.as_uvec2());
+            // They fill the height of the whole window.
+            views.list.iter_mut().for_each(|(_, orbit)| orbit.distance *= size.y as f32 / free.y);
+            window::add(&mut app, self.title, size, views, (self.keys, self.covered_below));
         } else {
             headless::add(&mut app, self.args, self.folder(), shots());
         }

@@ -2,10 +2,11 @@
 
 use super::camera::{self, Orbit};
 use super::graphics;
-use super::keys::{self, Command, DIGITS};
+use super::keys::{self, Command, DIGITS, Own};
 use super::paint::{Paint, Progress, Repaint};
 use super::sky::Sky;
 use bevy::anti_alias::fxaa::Fxaa;
+use bevy::camera::SubCameraView;
 use bevy::input::mouse::{AccumulatedMouseMotion, AccumulatedMouseScroll, MouseScrollUnit};
 use bevy::prelude::*;
 use bevy::window::WindowResolution;
@@ -21,15 +22,27 @@ pub struct Views {
     pub first: usize,
 }
 
-pub fn add(app: &mut App, title: &str, size: UVec2, views: Views) {
+impl Views {
+    /// Returns these views from so far that all of what was `designed` for a picture of that size is in one of the size
+    /// `free`, as the whole height is anyway.
+    pub fn fit(mut self, designed: UVec2, free: UVec2) -> Self {
+        let aspect = |size: UVec2| size.x as f32 / size.y as f32;
+        let farther = (aspect(designed) / aspect(free)).max(1.0);
+        self.list.iter_mut().for_each(|(_, orbit)| orbit.distance *= farther);
+        self
+    }
+}
+
+pub fn add(app: &mut App, title: &str, size: UVec2, views: Views, (keys, covered_below): (Own, f32)) {
     let window = Window { title: title.into(), resolution: WindowResolution::new(size.x, size.y), ..default() };
     let window = WindowPlugin { primary_window: Some(window), ..default() };
     app.add_plugins(DefaultPlugins.set(window).set(graphics::assets()).set(graphics::renderer(false)))
         .add_plugins(EguiPlugin::default())
         .insert_resource(views)
+        .insert_resource(OfScene { keys, covered_below })
         .init_resource::<Help>()
         .add_systems(Startup, spawn_camera)
-        .add_systems(Update, (keep_past, obey_keys, look, orbit))
+        .add_systems(Update, (keep_past, obey_keys, look, orbit, make_room))
         .add_systems(EguiPrimaryContextPass, read_out);
 }
 
@@ -46,6 +59,37 @@ impl Default for Help {
 fn spawn_camera(mut commands: Commands, sky: Res<Sky>, views: Res<Views>) {
     if let Some((_, orbit)) = views.list.get(views.first) {
         commands.spawn((camera::view(&sky, *orbit), Fxaa::default()));
+    }
+}
+
+/// Width of the read-out with the list of keys and the margin beside it, in logical pixels.
+const READ_OUT: f32 = 372.0;
+
+/// What only one scene has: its keys, and the height that it covers at the bottom of the window, in logical pixels.
+#[derive(Resource, Clone, Copy, Debug)]
+struct OfScene {
+    keys: Own,
+    covered_below: f32,
+}
+
+/// Returns the width and height of a window that its read-outs leave free. A window of which they would cover more than
+/// half is taken to be free.
+pub fn free_part(size: Vec2, covered_below: f32) -> Vec2 {
+    let free = |whole: f32, covered: f32| if whole > 2.0 * covered { whole - covered } else { whole };
+    Vec2::new(free(size.x, READ_OUT), free(size.y, covered_below))
+}
+
+/// Shifts the picture so that its middle is in the middle of what the read-outs leave free.
+fn make_room(windows: Query<&Window>, own: Res<OfScene>, mut cameras: Query<&mut Camera, With<Orbit>>) {
+    let Ok(window) = windows.single() else { return };
+    let (full_size, covered) = (window.physical_size(), window.size() - free_part(window.size(), own.covered_below));
+    let offset = 0.5 * window.scale_factor() * Vec2::new(-covered.x, covered.y);
+    for mut camera in &mut cameras {
+        let is_right =
+            |view: &SubCameraView| (view.full_size, view.offset, view.size) == (full_size, offset, full_size);
+        if full_size.min_element() > 0 && !camera.sub_camera_view.as_ref().is_some_and(is_right) {
+            camera.sub_camera_view = Some(SubCameraView { full_size, offset, size: full_size });
+        }
     }
 }
 
@@ -118,6 +162,7 @@ fn orbit(
     motion: Res<AccumulatedMouseMotion>,
     scroll: Res<AccumulatedMouseScroll>,
     mut contexts: EguiContexts,
+    own: Res<OfScene>,
     mut cameras: Query<(&mut Orbit, &mut Transform)>,
 ) {
     // What happens over the read-out belongs to it.
@@ -127,7 +172,8 @@ fn orbit(
             orbit.yaw -= motion.delta.x * 0.005;
             orbit.pitch = (orbit.pitch + motion.delta.y * 0.005).clamp(-0.6, 1.4);
         }
-        if !taken && (buttons.pressed(MouseButton::Right) || buttons.pressed(MouseButton::Middle)) {
+        let right = buttons.pressed(MouseButton::Right) && !keys::right_is_taken(own.keys);
+        if !taken && (right || buttons.pressed(MouseButton::Middle)) {
             let pan = transform.rotation * Vec3::new(-motion.delta.x, motion.delta.y, 0.0) * orbit.distance * 0.0012;
             orbit.centre += pan;
         }
@@ -167,6 +213,7 @@ fn read_out(
     progress: Progress,
     mut past: Query<(&mut FilmClock, &FilmHistory)>,
     views: Res<Views>,
+    own: Res<OfScene>,
     help: Res<Help>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
@@ -201,7 +248,7 @@ fn read_out(
             ui.separator();
             egui::Grid::new("keys").num_columns(2).show(ui, |ui| {
                 let names: Vec<&str> = views.list.iter().map(|(name, _)| *name).collect();
-                for (key, meaning) in keys::list(&names) {
+                for (key, meaning) in keys::list(&names, own.keys) {
                     ui.monospace(key);
                     ui.label(meaning);
                     ui.end_row();

@@ -8,7 +8,7 @@ use clap::Parser;
 
 /// One plate, coarse and fine, by the paper's rules and by the grain.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "fineness", about, after_help = keys::help(&stage::NAMES))]
+#[command(name = "fineness", about, after_help = keys::help(&stage::NAMES, &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

@@ -21,7 +21,7 @@ use common_scene::{paint, scene::Scene, studio::StudioPlugin, wall};
 fn main() -> AppExit {
     let options = Options::parse();
     let scene = Scene::new("fineness", "Fineness", &options.scene);
-    let opened = scene.open(stage::SIZE, |_| stage::views(), || stage::shots(&options));
+    let opened = scene.open(|free| stage::views().fit(stage::SIZE, free), || stage::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: wall::sun_direction() };

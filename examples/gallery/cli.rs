@@ -10,7 +10,7 @@ use clap::Parser;
 
 /// The figures of the paper, and ours: a window to step through, or pictures and a page.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "gallery", about, after_help = keys::help(&stage::names()))]
+#[command(name = "gallery", about, after_help = keys::help(&stage::names(), &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

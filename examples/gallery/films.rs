@@ -10,7 +10,6 @@ use bevy::prelude::*;
 use bevy_coating::deform::FilmConstraints;
 use bevy_coating::film::FilmMesh;
 use bevy_coating::fracture::FilmForces;
-use bevy_coating::heat::HeatMap;
 use bevy_coating::sim::{FilmClock, FilmState};
 use bevy_coating::stain::{Environment, StainFields};
 use bevy_coating::{CoatingPart, CoatingStatus, HeatMapView, prelude::*};
@@ -52,8 +51,8 @@ fn begin(
             clock.seek(panel.age);
         }
         commands.entity(film.root).insert(Begun);
-        if panel.look == Look::Heat {
-            commands.entity(film.root).insert(HeatMapView::new(HeatMap::Adhesion));
+        if let Look::Heat(map) = panel.look {
+            commands.entity(film.root).insert(HeatMapView::new(map));
         }
     }
 }
@@ -112,7 +111,7 @@ fn arrive(
         match panel.look {
             Look::Wires => wires::draw(&mut commands, &mut meshes, &mut materials, (panel, *place, &film)),
             Look::Cracks => wires::draw_cracks(&mut commands, &mut meshes, &mut materials, (panel, *place, &film)),
-            Look::Paint | Look::Heat => {}
+            Look::Paint | Look::Heat(_) => {}
         }
         found.push((panel.clone(), film));
     }

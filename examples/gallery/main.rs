@@ -28,8 +28,9 @@ use common_scene::{paint, scene::Scene, studio::StudioPlugin, wall};
 fn main() -> AppExit {
     let options = Options::parse();
     let folder = options.scene.folder("gallery");
-    let scene = Scene::new("gallery", "Gallery (Left, Right: figures)", &options.scene);
-    let opened = scene.open(stage::SIZE, |size| stage::views(&options, size), || stage::shots(&options));
+    let scene =
+        Scene::new("gallery", "Gallery (Left, Right: figures)", &options.scene).with_covered_below(statement::HEIGHT);
+    let opened = scene.open(|size| stage::views(&options, size), || stage::shots(&options));
     let Some(mut app) = opened else {
         println!("No graphics adapter was found, so nothing can be drawn: the page is written without pictures.");
         return publish::text(&folder);

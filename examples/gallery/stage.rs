@@ -30,8 +30,6 @@ const GAP: f32 = 0.10;
 const LINE: f32 = 0.085;
 /// A long lens, so that all panels are seen alike.
 const FIELD_OF_VIEW: f32 = 0.3;
-/// Of the window.
-pub const SIZE: UVec2 = UVec2::new(1280, 720);
 
 pub struct StagePlugin;
 

@@ -11,6 +11,12 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
 pub struct StatementPlugin;
 
+/// Height of the statement, in logical pixels.
+pub const HEIGHT: f32 = 240.0;
+/// Where it begins, beside the read-out, and the margin around it, in logical pixels.
+const LEFT: f32 = 388.0;
+const MARGIN: f32 = 16.0;
+
 impl Plugin for StatementPlugin {
     fn build(&self, app: &mut App) {
         app.add_systems(EguiPrimaryContextPass, show);
@@ -23,11 +29,14 @@ fn show(
     options: Res<Options>,
     wanted: Query<&Wanted>,
     films: Query<(&FilmClock, &FilmSummary, &CoatedBy)>,
+    screen: Single<&Window>,
 ) -> Result {
     let figures = options.figures();
     let Some(figure) = figures.get(views.first) else { return Ok(()) };
     let window = egui::Window::new(format!("{}: {}", figure.number, figure.title)).id(egui::Id::new("statement"));
-    window.default_pos([900.0, 16.0]).default_width(340.0).show(contexts.ctx_mut()?, |ui| {
+    let width = (screen.width() - LEFT - 3.0 * MARGIN).max(300.0);
+    let window = window.pivot(egui::Align2::LEFT_BOTTOM).default_pos([LEFT, screen.height() - MARGIN]);
+    window.default_width(width).show(contexts.ctx_mut()?, |ui| {
         ui.label(format!("The paper: {}", figure.paper));
         ui.separator();
         ui.label(format!("Here: {}", figure.here));

@@ -10,7 +10,7 @@ use clap::{Parser, ValueEnum};
 
 /// Props of very different size under one coating: cracks and flakes have one scale in metres.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "one_scale", about, after_help = keys::help(&stage::NAMES))]
+#[command(name = "one_scale", about, after_help = keys::help(&stage::NAMES, &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

@@ -22,7 +22,7 @@ use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 fn main() -> AppExit {
     let options = Options::parse();
     let scene = Scene::new("one_scale", "One scale (M: rules by the grain or the paper's)", &options.scene);
-    let opened = scene.open(stage::SIZE, |_| stage::views(&options), || stage::shots(&options));
+    let opened = scene.open(|free| stage::views(&options).fit(stage::SIZE, free), || stage::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: stage::sun_direction() };

@@ -9,7 +9,7 @@ use clap::Parser;
 
 /// Weathering that is painted: before, its heat map, and after.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "paint_brush", about, after_help = keys::help(&stage::NAMES))]
+#[command(name = "paint_brush", about, after_help = keys::help(&stage::NAMES, stage::KEYS))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

@@ -22,8 +22,9 @@ use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 
 fn main() -> AppExit {
     let options = Options::parse();
-    let scene = Scene::new("paint_brush", "Paint brush (right button: weaken the paint, H: heat map)", &options.scene);
-    let opened = scene.open(stage::SIZE, |_| stage::views(), || stage::shots(&options));
+    let scene = Scene::new("paint_brush", "Paint brush (right button: weaken the paint, M: heat map)", &options.scene)
+        .with_keys(stage::KEYS);
+    let opened = scene.open(|free| stage::views().fit(stage::SIZE, free), || stage::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     if scene.is_window() {
         app.add_plugins(CoatingPointingPlugin).add_systems(Startup, stage::take_brush);

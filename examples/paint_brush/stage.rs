@@ -3,6 +3,7 @@
 use crate::cli::Options;
 use crate::common_scene::camera::Orbit;
 use crate::common_scene::headless::Shot;
+use crate::common_scene::keys::{Own, RIGHT_DRAG};
 use crate::common_scene::paint::{Loading, Paint};
 use crate::common_scene::window::Views;
 use crate::strokes::HEAT_AGE;
@@ -32,6 +33,9 @@ impl Plugin for StagePlugin {
 pub fn sun_direction() -> Vec3 {
     Vec3::new(-0.60, 0.50, 0.62).normalize()
 }
+
+/// Keys of this scene alone.
+pub const KEYS: Own = &[("M", "show or hide the heat map"), (RIGHT_DRAG, "weaken the paint")];
 
 /// In the window the right button weakens the paint.
 pub fn take_brush(mut brush: ResMut<CoatingBrush>) {

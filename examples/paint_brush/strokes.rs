@@ -57,7 +57,7 @@ fn paint(mut commands: Commands, mut ready: MessageReader<FilmReady>, places: Qu
 /// Age at which the heat map is shown in pictures.
 pub const HEAT_AGE: f64 = 0.02;
 
-/// Shows the heat map at its age in pictures, and on H in a window.
+/// Shows the heat map at its age in pictures, and on M in a window.
 fn show_heat_map(
     mut commands: Commands,
     keyboard: Res<ButtonInput<KeyCode>>,
@@ -70,7 +70,7 @@ fn show_heat_map(
         let wanted = if windows.is_empty() {
             (age - HEAT_AGE).abs() < 0.01
         } else {
-            shown != keyboard.just_pressed(KeyCode::KeyH)
+            shown != keyboard.just_pressed(KeyCode::KeyM)
         };
         if wanted && !shown {
             commands.entity(root).insert(HeatMapView::new(HeatMap::Adhesion));

@@ -8,7 +8,7 @@ use clap::Parser;
 
 /// The presets side by side: twelve ways in which paint grows old.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "presets", about, after_help = keys::help(&stage::names()))]
+#[command(name = "presets", about, after_help = keys::help(&stage::names(), &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

@@ -8,7 +8,7 @@ use clap::Parser;
 
 /// What each setting does: three values of it side by side.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "settings", about, after_help = keys::help(&rows::names()))]
+#[command(name = "settings", about, after_help = keys::help(&rows::names(), &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

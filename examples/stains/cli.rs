@@ -9,7 +9,7 @@ use clap::Parser;
 
 /// Painted test pieces side by side, stained by dust, rust and rain.
 #[derive(Parser, Resource, Clone, Debug)]
-#[command(name = "stains", about, after_help = keys::help(&Theme::ALL.map(|theme| theme.name())))]
+#[command(name = "stains", about, after_help = keys::help(&Theme::ALL.map(|theme| theme.name()), &[]))]
 pub struct Options {
     #[command(flatten)]
     pub scene: SceneArgs,

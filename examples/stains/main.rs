@@ -24,7 +24,7 @@ use common_scene::{paint, scene::Scene, studio::StudioPlugin};
 fn main() -> AppExit {
     let options = Options::parse();
     let scene = Scene::new("stains", "Stains", &options.scene);
-    let opened = scene.open(stage::SIZE, |size| stage::views(&options, size), || stage::shots(&options));
+    let opened = scene.open(|size| stage::views(&options, size), || stage::shots(&options));
     let Some(mut app) = opened else { return scene.bake(bare::pieces(&options)) };
     app.insert_resource(options);
     let studio = StudioPlugin { sun: weather::sun_direction() };

@@ -12,8 +12,9 @@ use crate::heat::{HeatMap, HeatRange};
 ///
 /// The colours are a mesh of their own just over the front of the paint, which has the film's own triangles, follows
 /// them as they move and age, and is written only when the film changed. The prop's own meshes and materials stay as
-/// they are, so everything is as before when the component is removed. It needs the feature `render` and Bevy's
-/// `StandardMaterial`.
+/// they are, so everything is as before when the component is removed. While it is shown, the film is drawn at level 0:
+/// the curved faces of a finer [`Detail`](crate::appearance::Detail) would bulge through it. It needs the
+/// feature `render` and Bevy's `StandardMaterial`.
 ///
 /// ```
 /// use bevy::prelude::*;

@@ -6,6 +6,8 @@ use bevy::{
     camera::Camera,
     ecs::{
         change_detection::DetectChangesMut,
+        entity::Entity,
+        query::With,
         system::{Query, ResMut},
     },
     math::Vec3,
@@ -22,6 +24,7 @@ use crate::{
     api::{
         coating::Coating,
         film_pace::FilmPace,
+        heat_map_view::HeatMapView,
         links::{CoatedBy, FilmSource},
         turn::Turn,
     },
@@ -62,18 +65,20 @@ impl View {
 /// Puts the levels on that have been prepared, and begins to prepare others.
 pub(super) fn follow_distances(
     mut films: Query<(
+        Entity,
         (&FilmMesh, &FilmForces, &StainFields),
         (&CoatedBy, &FilmSource, &FilmPace, &GlobalTransform),
         &mut DisplayChanges,
         &mut FilmDisplay,
     )>,
     coatings: Query<&Coating>,
+    heat_maps: Query<(), With<HeatMapView>>,
     cameras: Query<(&Camera, &GlobalTransform)>,
     mut assets: ResMut<Assets<Mesh>>,
 ) {
     let views: Vec<View> = cameras.iter().filter_map(|(camera, at)| View::of(camera, at)).collect();
     let mut beginnings = 0;
-    for ((mesh, forces, stains), (coated_by, source, pace, transform), mut changes, mut display) in &mut films {
+    for (film, (mesh, forces, stains), (coated_by, source, pace, transform), mut changes, mut display) in &mut films {
         let display = display.bypass_change_detection();
         if display.appearance.finest_level() == 0 {
             continue;
@@ -92,6 +97,9 @@ pub(super) fn follow_distances(
         let wanted = largest.map_or(level, |pixels| {
             detail.level_at(pixels * display.film_edge / source.metres_per_unit, under_way.unwrap_or(shown))
         });
+        // A heat map has the film's own triangles, beyond which those of a finer level would bulge.
+        let is_heated = heat_maps.contains(film) || heat_maps.contains(coated_by.0);
+        let wanted = if is_heated { 0 } else { wanted };
         if wanted == shown {
             display.next = None;
         } else if under_way != Some(wanted) && beginnings < BEGINNINGS {

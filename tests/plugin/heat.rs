@@ -3,6 +3,7 @@
 use bevy::{mesh::VertexAttributeValues, prelude::*};
 use bevy_coating::{
     CoatingPart, HeatMapView,
+    film::FilmMesh,
     heat::{HeatMap, HeatRange},
     prelude::*,
 };
@@ -110,6 +111,24 @@ fn colours_follow_the_film_and_rest_when_it_does() {
     app.update();
     let exposed = colors(&mut app);
     assert!(exposed.iter().all(|color| *color == exposed[0]), "it rains alike everywhere");
+}
+
+#[test]
+fn a_film_with_a_heat_map_is_drawn_by_its_own_triangles() {
+    let mut app = app_with_materials();
+    let film = spawn_prop(&mut app);
+    app.world_mut().get_mut::<Coating>(film).expect("paint").detail.level = 2;
+    wait_for_films(&mut app, 1);
+    let triangles = |app: &App| {
+        let shown = &app.world().get::<Mesh3d>(film).expect("a mesh").0;
+        triangles_of(app.world().resource::<Assets<Mesh>>().get(shown).expect("an asset")).len()
+    };
+    let faces = app.world().get::<FilmMesh>(film).expect("a film").topology.face_count();
+    update_until(&mut app, |app| triangles(app) == 16 * faces);
+    app.world_mut().entity_mut(film).insert(HeatMapView::new(HeatMap::Strain));
+    update_until(&mut app, |app| triangles(app) == faces);
+    app.world_mut().entity_mut(film).remove::<HeatMapView>();
+    update_until(&mut app, |app| triangles(app) == 16 * faces);
 }
 
 #[test]

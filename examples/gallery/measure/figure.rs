@@ -1,5 +1,7 @@
 //! A figure of the paper: what it says, what is shown of ours beside it, and what is measured.
 
+use bevy_coating::heat::HeatMap;
+
 use super::{
     claim::Claim,
     exhibit::{Exhibit, NoFilm},
@@ -11,8 +13,8 @@ pub enum Look {
     /// As paint.
     #[default]
     Paint,
-    /// Coloured by adhesion minus bending force.
-    Heat,
+    /// Coloured by a quantity.
+    Heat(HeatMap),
     /// As paint, with lines along cracks and marks at the sources of rust.
     Cracks,
     /// As paint, with the triangles of the simulation and those that are drawn as lines.

@@ -1,11 +1,13 @@
 //! Bodies that bend: a mechanical part, a disk, and a vase.
 
+use bevy_coating::heat::HeatMap;
+
 use crate::measure::{
     claim::Claim,
     curvature::{self, GAMMAS},
     disk,
     exhibit::{Exhibit, NoFilm, Shape, paper},
-    figure::{Figure, Panel, View, around, at_least, at_most},
+    figure::{Figure, Look, Panel, View, around, at_least, at_most},
 };
 
 const PART_AGES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
@@ -87,21 +89,23 @@ pub const VASE: Figure = Figure {
     title: "gamma, the effect of curvature",
     paper: "With gamma 1 curvature hardly matters even where the foot bends steeply; with 4 it shows even on gentle \
             curves; 2, in between, is chosen.",
-    here: "A vase with ribs and a steep foot below and gentle bends above; 6,000 triangles, the paper's rules, age \
-           0.5. The numbers are of paired runs to age 2: by how much earlier (-) or later (+) a place lets go than the \
-           same place without gamma. Convex and concave are places around which edges bend by more than 0.2 radians on \
-           the mean; where the prototype drew that line, and on what shape, is not known: both were found by trial \
-           here.",
+    here: "A vase with ribs and a steep foot below and gentle bends above; 6,000 triangles, the paper's rules. Above \
+           at age 0.5, below fresh, coloured by the age until a place lets go: the brighter, the sooner. The numbers \
+           are of paired runs to age 2: by how much earlier (-) or later (+) a place lets go than the same place \
+           without gamma. Convex and concave are places around which edges bend by more than 0.2 radians on the mean; \
+           where the prototype drew that line, and on what shape, is not known: both were found by trial here.",
     view: View::Free { yaw: 0.3, pitch: 0.12 },
     columns: 3,
     width: 800,
     panels: || {
-        let panel = |gamma: f32| {
+        let panel = |gamma: f32, age: f64, look: Look| {
             let vase = Shape::Vase(curvature::TRIANGLES);
             let vase = Exhibit::new("vase", format!("gamma {gamma}"), vase, curvature::settings(gamma));
-            Panel { level: 1, ..Panel::new(vase, 0.5) }
+            Panel { level: 1, look, ..Panel::new(vase, age) }
         };
-        GAMMAS.map(panel).to_vec()
+        let aged = GAMMAS.map(|gamma| panel(gamma, 0.5, Look::Paint));
+        let fresh = GAMMAS.map(|gamma| panel(gamma, 0.0, Look::Heat(HeatMap::Separation)));
+        [aged, fresh].concat()
     },
     claims: vase_claims,
 };

@@ -1,6 +1,6 @@
 //! How it looks: from nearby, on a sign, steered by hand, and finer than it is simulated.
 
-use bevy_coating::{appearance::Detail, settings::CoatingSettings};
+use bevy_coating::{appearance::Detail, heat::HeatMap, settings::CoatingSettings};
 
 use crate::measure::{
     claim::Claim,
@@ -89,9 +89,13 @@ pub const STEERED: Figure = Figure {
             look,
             ..Panel::new(Exhibit { title: title.to_owned(), ..painted::plate(7) }, age)
         };
-        [(0.0, "before", Look::Paint), (0.0, "heat map", Look::Heat), (painted::AGE, "after", Look::Paint)]
-            .map(panel)
-            .to_vec()
+        [
+            (0.0, "before", Look::Paint),
+            (0.0, "heat map", Look::Heat(HeatMap::Adhesion)),
+            (painted::AGE, "after", Look::Paint),
+        ]
+        .map(panel)
+        .to_vec()
     },
     claims: || {
         let found = painted::steered()?;
