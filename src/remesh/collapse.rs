@@ -3,9 +3,11 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::rest::{PIECE, Rest};
 use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
-use crate::film::{HalfEdgeId, VertexId};
+use crate::{
+    film::{HalfEdgeId, VertexId},
+    rest::{PIECE, Rest},
+};
 
 /// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]

@@ -17,14 +17,16 @@ use super::{
     order, polish,
     reference::Reference,
     relax::{self, Relaxation},
-    rest::Rest,
     sites,
     sizing::LEAST_PART,
     split::{self, SplitLimits},
     target::{FilmTarget, count_of_edge, edge_of_area},
     work_mesh::{WorkMesh, quality},
 };
-use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
+use crate::{
+    rest::Rest,
+    surface::{BuildError, BuildWarning, CleanSurface, Surface},
+};
 
 /// Split and collapse thresholds over the target edge length (Botsch and Kobbelt: 4/3 and 4/5).
 const SPLIT: f32 = 4.0 / 3.0;

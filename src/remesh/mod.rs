@@ -24,7 +24,6 @@ mod project;
 mod reference;
 mod relax;
 mod resolution;
-mod rest;
 pub mod sample;
 mod seams;
 mod share;
@@ -40,13 +39,14 @@ mod work_mesh;
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
 pub use fine::{FineSites, fine_sites};
 pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
-pub(crate) use rest::Rest;
 pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
 pub use target::FilmTarget;
 
-use crate::surface::{BuildError, Surface, clean};
+use crate::{
+    rest::{NoRest, Rest, at_once},
+    surface::{BuildError, Surface, clean},
+};
 use frame::Frame;
-use rest::{NoRest, at_once};
 
 /// Builds the film of a surface: cleans the surface, remeshes it to the target (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.

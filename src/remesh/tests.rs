@@ -9,9 +9,10 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::topology::Topology;
-use super::{BuiltFilm, FilmTarget, Rest, build_film, build_film_in_pieces, clean, rest::at_once};
+use super::{BuiltFilm, FilmTarget, build_film, build_film_in_pieces, clean};
 use crate::{
     film::{FaceId, VertexId},
+    rest::{Rest, at_once},
     surface::{BuildError, BuildWarning, Surface},
 };
 
