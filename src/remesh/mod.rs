@@ -38,13 +38,14 @@ mod work_mesh;
 
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
 pub use fine::{FineSites, fine_sites};
+pub(crate) use fine::fine_sites_in_pieces;
 pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
 pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
 pub use target::FilmTarget;
 
 use crate::{
     rest::{NoRest, Rest, at_once},
-    surface::{BuildError, Surface, clean},
+    surface::{BuildError, Surface, clean_in_pieces},
 };
 use frame::Frame;
 
@@ -55,7 +56,7 @@ use frame::Frame;
 /// bit.
 ///
 /// # Errors
-/// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
+/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
 /// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a
 /// target out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
 ///
@@ -95,7 +96,6 @@ pub(crate) async fn build_film_in_pieces(
     let frame = Frame::of(surface)?;
     let moved = frame.enter(surface);
     let surface = moved.as_ref().unwrap_or(surface);
-    let clean = clean(surface)?;
-    rest.rest().await;
+    let clean = clean_in_pieces(surface, rest).await?;
     frame.leave(isotropic::remesh(surface, &clean, target, seed, rest).await?)
 }

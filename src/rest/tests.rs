@@ -11,7 +11,7 @@ use crate::{
     settings::CoatingSettings,
     sim::FilmState,
     stain::exposure::ExposedSurface,
-    surface::{Surface, clean},
+    surface::{Surface, clean_in_pieces},
 };
 
 /// Names of the stages, in the order in which [`build`] does them.
@@ -93,19 +93,20 @@ fn torus(along: u32, across: u32) -> Surface {
 /// Does what is done in the background for a prop, stage by stage.
 fn build(surface: &Surface, triangles: u32, watch: &mut Watch) {
     let settings = CoatingSettings::default();
-    clean(surface).expect("a clean surface");
+    at_once(clean_in_pieces(surface, watch)).expect("a clean surface");
     watch.next();
     let built = at_once(build_film_in_pieces(surface, FilmTarget::Triangles(triangles), 7, watch)).expect("a film");
     watch.next();
-    let film = FilmState::new(&built, &settings, 7, 1000).expect("a manifold");
+    let film = at_once(FilmState::new_in_pieces(&built, &settings, 7, 1000, watch)).expect("a manifold");
     for level in 0..3 {
         watch.next();
         let detail = Detail { level, ..Detail::default() };
         let FilmState { mesh, forces, stains, .. } = &film;
-        FilmAppearance::with_detail(&built, surface, mesh, forces, stains, detail).expect("an appearance");
+        at_once(FilmAppearance::in_pieces(&built, surface, mesh, forces, stains, detail, watch)).expect("a film");
     }
     watch.next();
-    ExposedSurface::new(&film.mesh).cast(&[], Vec3::NEG_Y, Vec3::new(1.0, -1.0, 0.3));
+    let exposed = at_once(ExposedSurface::new_in_pieces(&film.mesh, watch));
+    at_once(exposed.cast_in_pieces(&[], Vec3::NEG_Y, Vec3::new(1.0, -1.0, 0.3), watch));
     watch.note();
 }
 

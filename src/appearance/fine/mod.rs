@@ -27,7 +27,7 @@ mod view;
 use std::sync::Arc;
 
 use super::{METAL_DEPTH, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges, seen::Seen};
-use crate::{film::FilmMesh, fracture::FilmForces};
+use crate::{film::FilmMesh, fracture::FilmForces, rest::Rest};
 use backs::FineBacks;
 pub(super) use base::Base;
 use fronts::FineFronts;
@@ -63,20 +63,34 @@ impl FineSurface {
     }
 
     /// Brings the parts up to date with what `seen` finds different about the film.
-    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, seen: &Seen) {
+    pub async fn update(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        face_slots: &FaceSlots,
+        seen: &Seen,
+        rest: &mut impl Rest,
+    ) {
         let Self { base, frames, depth, fronts, backs, metal } = self;
         if seen.moved {
             frames.follow(mesh, forces, seen);
         }
         let view = View { mesh, face_slots, base, positions: seen.moves.positions(), frames };
+        rest.rest().await;
         fronts.renew(&view, seen);
+        rest.rest().await;
         backs.renew(&view, forces, seen, fronts);
+        rest.rest().await;
         stains::stain(&view, seen, fronts, backs);
+        rest.rest().await;
         if seen.moved {
             bend::bend(&view, seen, fronts, backs);
+            rest.rest().await;
         }
         backs.finish(&view, seen, fronts);
+        rest.rest().await;
         metal.update(&view, forces, seen, *depth);
+        rest.rest().await;
         if seen.differences.whole {
             fronts.forget();
             backs.forget();
