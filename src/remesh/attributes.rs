@@ -5,7 +5,7 @@ use bevy_math::{Vec3, Vec4};
 use super::topology::Topology;
 use crate::{
     film::HalfEdgeId,
-    rest::Rest,
+    rest::{LIGHT_PIECE, Rest},
     surface::{CleanSurface, Surface, SurfaceSite},
 };
 
@@ -42,33 +42,40 @@ impl Attributes {
         let has = |length: usize| length == corners && corners > 0;
         let direction = |v: Vec3| v.normalize_or_zero();
         for uvs in [&surface.uvs, &surface.uvs_1].into_iter().filter(|uvs| has(uvs.len())) {
-            all.add(clean, UV_SEAM, UV_BEND, |i| uvs[i].extend(0.0).extend(0.0));
-            rest.rest().await;
+            all.add(clean, UV_SEAM, UV_BEND, |i| uvs[i].extend(0.0).extend(0.0), rest).await;
         }
         if has(surface.normals.len()) {
-            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, |i| direction(surface.normals[i]).extend(0.0));
-            rest.rest().await;
+            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, |i| direction(surface.normals[i]).extend(0.0), rest).await;
         }
         if has(surface.tangents.len()) {
-            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, |i| {
-                direction(surface.tangents[i].truncate()).extend(surface.tangents[i].w)
-            });
-            rest.rest().await;
+            let tangent = |i: usize| direction(surface.tangents[i].truncate()).extend(surface.tangents[i].w);
+            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, tangent, rest).await;
         }
         if has(surface.colors.len()) {
-            all.add(clean, COLOR_SEAM, COLOR_BEND, |i| surface.colors[i]);
-            rest.rest().await;
+            all.add(clean, COLOR_SEAM, COLOR_BEND, |i| surface.colors[i], rest).await;
         }
         all
     }
 
     /// Adds an attribute with a `value` at each corner of the surface.
-    fn add(&mut self, clean: &CleanSurface, seam: f32, bend: f32, value: impl Fn(usize) -> Vec4) {
+    async fn add(
+        &mut self,
+        clean: &CleanSurface,
+        seam: f32,
+        bend: f32,
+        value: impl Fn(usize) -> Vec4 + Send + Sync,
+        rest: &mut impl Rest,
+    ) {
         let at_site = |site: &SurfaceSite| {
             let [a, b, c] = [0, 1, 2].map(|k| value(3 * site.triangle as usize + k));
             a * site.weights.x + b * site.weights.y + c * site.weights.z
         };
-        self.channels.push(Channel { values: clean.sites.iter().flatten().map(at_site).collect(), seam, bend });
+        let mut values = Vec::with_capacity(3 * clean.sites.len());
+        for piece in clean.sites.chunks(LIGHT_PIECE) {
+            values.extend(piece.iter().flatten().map(&at_site));
+            rest.rest().await;
+        }
+        self.channels.push(Channel { values, seam, bend });
     }
 
     /// Returns whether an attribute differs between the two sides of the edge, at either end. Where the film must be

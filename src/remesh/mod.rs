@@ -37,8 +37,8 @@ mod topology;
 mod work_mesh;
 
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
-pub use fine::{FineSites, fine_sites};
 pub(crate) use fine::fine_sites_in_pieces;
+pub use fine::{FineSites, fine_sites};
 pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
 pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
 pub use target::FilmTarget;

@@ -128,7 +128,10 @@ fn pieces_of_background_work() {
                 both.for_each(|(least, &new)| *least = least.min(new));
             }
         }
-        println!("{} triangles, film of {triangles}: pieces, all, median, 90 of 100, longest in ms", prop.triangles.len());
+        println!(
+            "{} triangles, film of {triangles}: pieces, all, median, 90 of 100, longest in ms",
+            prop.triangles.len()
+        );
         for (name, mut pieces) in STAGES.iter().zip(least) {
             let all: f64 = pieces.iter().sum();
             pieces.sort_by(f64::total_cmp);

@@ -27,13 +27,20 @@ mod view;
 use std::sync::Arc;
 
 use super::{METAL_DEPTH, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges, seen::Seen};
-use crate::{film::FilmMesh, fracture::FilmForces, rest::Rest};
+use crate::{
+    film::FilmMesh,
+    fracture::FilmForces,
+    rest::{PIECE, Rest},
+};
 use backs::FineBacks;
 pub(super) use base::Base;
 use fronts::FineFronts;
 use metal::FineMetal;
 use vertex_frames::VertexFrames;
 use view::View;
+
+/// Number of faces or edges that make a piece of the work: each has several points.
+const FINE_PIECE: usize = 2 * PIECE;
 
 /// Fine fronts, backs and metal of one film, and the lookups that bring them up to date.
 #[derive(Clone, Debug, Default)]
@@ -77,20 +84,14 @@ impl FineSurface {
         }
         let view = View { mesh, face_slots, base, positions: seen.moves.positions(), frames };
         rest.rest().await;
-        fronts.renew(&view, seen);
-        rest.rest().await;
-        backs.renew(&view, forces, seen, fronts);
-        rest.rest().await;
-        stains::stain(&view, seen, fronts, backs);
-        rest.rest().await;
+        fronts.renew(&view, seen, rest).await;
+        backs.renew(&view, forces, seen, fronts, rest).await;
+        stains::stain(&view, seen, fronts, backs, rest).await;
         if seen.moved {
-            bend::bend(&view, seen, fronts, backs);
-            rest.rest().await;
+            bend::bend(&view, seen, fronts, backs, rest).await;
         }
-        backs.finish(&view, seen, fronts);
-        rest.rest().await;
-        metal.update(&view, forces, seen, *depth);
-        rest.rest().await;
+        backs.finish(&view, seen, fronts, rest).await;
+        metal.update(&view, forces, seen, *depth, rest).await;
         if seen.differences.whole {
             fronts.forget();
             backs.forget();

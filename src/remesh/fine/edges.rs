@@ -21,12 +21,7 @@ pub struct Edges {
 }
 
 impl Edges {
-    pub async fn new(
-        seeker: &Seeker<'_>,
-        corners: &Corners<'_>,
-        grid: &FaceGrid,
-        rest: &mut impl Rest,
-    ) -> Self {
+    pub async fn new(seeker: &Seeker<'_>, corners: &Corners<'_>, grid: &FaceGrid, rest: &mut impl Rest) -> Self {
         let count = 1 << grid.level();
         let inner = (count - 1) * corners.half_edges().count();
         let none = SurfaceSite { triangle: 0, weights: Vec3::X };

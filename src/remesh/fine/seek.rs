@@ -37,12 +37,7 @@ pub struct Found {
 }
 
 impl<'a> Seeker<'a> {
-    pub async fn new(
-        surface: &Surface,
-        clean: &'a CleanSurface,
-        corners: &Corners<'_>,
-        rest: &mut impl Rest,
-    ) -> Self {
+    pub async fn new(surface: &Surface, clean: &'a CleanSurface, corners: &Corners<'_>, rest: &mut impl Rest) -> Self {
         if corners.faces().all(|f| corners.is_flat(f) || !corners.is_known(f)) {
             return Self { clean, ground: None };
         }

@@ -24,12 +24,7 @@ const FILLER: f64 = 4.0;
 const RETURNS: u32 = 4;
 
 /// Dissolves slivers in place. Returns the number of slivers at the start. There must be no duplicate faces.
-pub(super) async fn dissolve(
-    faces: &mut Vec<Face>,
-    positions: &[Vec3],
-    tolerance: f64,
-    rest: &mut impl Rest,
-) -> usize {
+pub(super) async fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64, rest: &mut impl Rest) -> usize {
     let mut slivers = Vec::new();
     for piece in pieces(faces.len(), LIGHT_PIECE) {
         let ranks = piece.map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f))));
