@@ -262,7 +262,8 @@ impl FilmAppearance {
         at_once(self.update_in_pieces(mesh, forces, stains, changes, &mut NoRest));
     }
 
-    async fn update_in_pieces(
+    /// Does what [`update`](Self::update) does, with rests between its pieces.
+    pub(crate) async fn update_in_pieces(
         &mut self,
         mesh: &FilmMesh,
         forces: &FilmForces,

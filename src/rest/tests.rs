@@ -6,11 +6,11 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 
 use super::*;
 use crate::{
-    appearance::{Detail, FilmAppearance},
+    appearance::{Detail, DisplayChanges, FilmAppearance},
     remesh::{FilmTarget, build_film_in_pieces},
     settings::CoatingSettings,
     sim::FilmState,
-    stain::exposure::ExposedSurface,
+    stain::exposure::{ExposedSurface, TriangleTree},
     surface::{Surface, clean_in_pieces},
 };
 
@@ -140,4 +140,87 @@ fn pieces_of_background_work() {
             println!("| {name} | {count} | {all:.1} | {median:.2} | {most:.2} | {longest:.2} |");
         }
     }
+}
+
+/// Films in pieces are those that are made at once, and no stage goes on for long without a rest.
+#[test]
+fn every_stage_of_a_build_rests() {
+    let prop = torus(64, 48);
+    let mut watch = Watch::new();
+    build(&prop, 2_000, &mut watch);
+    // Of 6,144 triangles of the prop, 2,000 of the film and 32,000 that show it, at a few thousand entries a piece.
+    for (name, least, pieces) in [
+        (STAGES[0], 20, &watch.pieces[0]),
+        (STAGES[1], 1000, &watch.pieces[1]),
+        (STAGES[2], 8, &watch.pieces[2]),
+        (STAGES[3], 6, &watch.pieces[3]),
+        (STAGES[4], 100, &watch.pieces[4]),
+        (STAGES[5], 150, &watch.pieces[5]),
+        (STAGES[6], 60, &watch.pieces[6]),
+    ] {
+        println!("{name}: {}", pieces.len());
+        assert!(pieces.len() >= least, "{name}: {} pieces", pieces.len());
+    }
+}
+
+/// Twice as large a prop has about twice as many pieces, and not longer ones.
+#[test]
+fn cleaning_rests_more_often_for_a_larger_prop() {
+    let rests = |prop: &Surface| {
+        let mut watch = Watch::new();
+        at_once(clean_in_pieces(prop, &mut watch)).expect("a clean surface");
+        watch.pieces[0].len() as f32
+    };
+    let (small, large) = (rests(&torus(128, 64)), rests(&torus(256, 128)));
+    assert!(large > 2.0 * small, "{small} and {large} for four times the triangles");
+}
+
+#[test]
+fn a_list_sorted_in_pieces_is_sorted() {
+    let mut number = 1_u32;
+    let mut next = move || {
+        number = number.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        number
+    };
+    for (count, most) in [(0, 1), (1, 1), (20_000, 5), (20_000, 3_000), (20_000, u32::MAX)] {
+        let items: Vec<(u32, u32)> = (0..count).map(|_| (next() % most, next())).collect();
+        let mut expected = items.clone();
+        expected.sort_unstable();
+        let mut watch = Watch::new();
+        let sorted = at_once(sort_by_number(items, |item| item.0, &mut watch));
+        assert!(sorted == expected, "{count} entries below {most}");
+        assert_eq!(watch.pieces[0].is_empty(), count == 0, "it rests");
+        // Pieces of whole runs cover the list.
+        let (mut from, mut pieces) = (0, 0);
+        while from < sorted.len() {
+            let end = end_of_runs(&sorted, from, |a, b| a.0 == b.0);
+            assert!(end == sorted.len() || sorted[end - 1].0 != sorted[end].0);
+            (from, pieces) = (end, pieces + 1);
+        }
+        assert!(pieces <= sorted.len().div_ceil(LIGHT_PIECE));
+    }
+}
+
+/// The engine runs such work on any of its threads.
+#[test]
+fn work_in_pieces_may_change_threads() {
+    fn assert_send(_: impl Send) {}
+    let (prop, settings) = (torus(8, 6), CoatingSettings::default());
+    let built = crate::remesh::build_film(&prop, FilmTarget::Triangles(100), 7).expect("a film");
+    let film = FilmState::new(&built, &settings, 7, 1000).expect("a manifold");
+    let FilmState { mesh, forces, stains, .. } = &film;
+    let mut watch = Watch::new();
+    assert_send(clean_in_pieces(&prop, &mut watch));
+    assert_send(build_film_in_pieces(&prop, FilmTarget::Triangles(100), 7, &mut watch));
+    assert_send(FilmState::new_in_pieces(&built, &settings, 7, 1000, &mut watch));
+    let detail = Detail { level: 1, ..Detail::default() };
+    assert_send(FilmAppearance::in_pieces(&built, &prop, mesh, forces, stains, detail, &mut watch));
+    let mut shown = FilmAppearance::with_detail(&built, &prop, mesh, forces, stains, detail).expect("a film");
+    let levels = shown.levels();
+    assert_send(levels.appearance_in_pieces(1, mesh, forces, stains, &mut watch));
+    assert_send(shown.update_in_pieces(mesh, forces, stains, DisplayChanges::everything(), &mut watch));
+    let exposed = ExposedSurface::new(mesh);
+    assert_send(ExposedSurface::new_in_pieces(mesh, &mut watch));
+    assert_send(exposed.cast_in_pieces(&[], Vec3::NEG_Y, Vec3::ZERO, &mut watch));
+    assert_send(TriangleTree::new_in_pieces([[Vec3::ZERO, Vec3::X, Vec3::Y]], &mut watch));
 }
