@@ -86,7 +86,7 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     let FilmInputs { target: most, shelter, saved, history, .. } = inputs;
     let FilmInputs { meshes, key, settings, quality, masks, scale, past, .. } = inputs;
     let mut turn = Turn::begin().await;
-    let (mut surface, attributes) = surface_of(&meshes, scale)?;
+    let (mut surface, attributes) = surface_of(&meshes, scale, &mut turn).await?;
     drop(meshes);
     let origin = surface.recentre();
     turn.rest().await;

@@ -94,7 +94,8 @@ pub(super) struct DisplaySlot {
 }
 
 impl FilmDisplay {
-    /// Returns the display of a film at rest, shown as finely as `detail` says. It rests between the pieces of its work.
+    /// Returns the display of a film at rest, shown as finely as `detail` says, with rests between the pieces of the
+    /// work.
     ///
     /// # Errors
     /// The errors of [`FilmAppearance::with_detail`].

@@ -56,9 +56,10 @@ use frame::Frame;
 /// bit.
 ///
 /// # Errors
-/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
-/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a
-/// target out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
+/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger
+/// than 1,000 km, [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding,
+/// [`BuildError::Resolution`] for a target out of range, and [`BuildError::TooLarge`] if the film would have more than
+/// [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
 /// use bevy_coating::{film::FilmMesh, remesh::{FilmTarget, build_film}, surface::Surface};

@@ -57,8 +57,8 @@ pub struct FineSites {
 /// that do not exist. The result is the same on every run, to the bit.
 ///
 /// # Errors
-/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than
-/// 1,000 km, and [`BuildError::TooLarge`] if there would be more than [`MAX_FILM_TRIANGLES`] small triangles.
+/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger
+/// than 1,000 km, and [`BuildError::TooLarge`] if there would be more than [`MAX_FILM_TRIANGLES`] small triangles.
 ///
 /// ```
 /// use bevy_coating::{film::FaceGrid, remesh::{fine_sites, sample::curved_plate}};
