@@ -151,6 +151,7 @@ mod plugin;
 mod pointing;
 pub mod prelude;
 pub mod remesh;
+mod rest;
 pub mod settings;
 #[cfg(feature = "plugin")]
 mod shelter;

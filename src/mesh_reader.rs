@@ -18,6 +18,7 @@ use bevy::{
 use crate::{
     api::error::CoatingFault,
     remesh::MAX_FILM_TRIANGLES,
+    rest::Rest,
     surface::{BuildError, Surface},
 };
 
@@ -51,11 +52,15 @@ struct Corners {
 /// has. Where only some primitives have an attribute, the others get a neutral value.
 ///
 /// If the scale mirrors the prop, the winding of the triangles is reversed, so that they are counter-clockwise seen
-/// from outside again.
+/// from outside again. It rests between attributes and between primitives.
 ///
 /// # Errors
 /// [`CoatingFault`] for meshes that do not consist of triangles, cannot be read, or have indices out of range.
-pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<SlotAttributes>), CoatingFault> {
+pub(crate) async fn surface_of(
+    meshes: &[Mesh],
+    scale: Vec3,
+    rest: &mut impl Rest,
+) -> Result<(Surface, Vec<SlotAttributes>), CoatingFault> {
     let mut surface = Surface::default();
     let mut slots = Vec::with_capacity(meshes.len());
     let mirrored = scale.x * scale.y * scale.z < 0.0;
@@ -63,7 +68,7 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
         let positions = positions_of(mesh)?;
         let first_vertex = first_of(&surface, positions.len())?;
         let first_triangle = surface.triangles.len();
-        let mut corners = corners_of(mesh, positions.len())?;
+        let mut corners = corners_of(mesh, positions.len(), rest).await?;
         corners.scale(scale);
         if mirrored {
             corners.reverse_winding();
@@ -81,6 +86,7 @@ pub(crate) fn surface_of(meshes: &[Mesh], scale: Vec3) -> Result<(Surface, Vec<S
             tangents: append(&mut surface.tangents, corners.tangents, before, here, Vec4::W),
             colors: append(&mut surface.colors, corners.colors, before, here, Vec4::ONE),
         });
+        rest.rest().await;
     }
     Ok((surface, slots))
 }
@@ -167,7 +173,7 @@ fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], CoatingFault> {
 }
 
 /// Reads the triangles of a mesh and the attributes of their corners, and checks the indices.
-fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
+async fn corners_of(mesh: &Mesh, vertices: usize, rest: &mut impl Rest) -> Result<Corners, CoatingFault> {
     let triangles = triangles_of(mesh, vertices)?;
     for (triangle, corners) in (0..).zip(&triangles) {
         if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
@@ -188,19 +194,21 @@ fn corners_of(mesh: &Mesh, vertices: usize) -> Result<Corners, CoatingFault> {
             triangles.iter().flatten().map(value).collect::<Vec<Vec4>>()
         })
     };
+    rest.rest().await;
     let normals = spread(Mesh::ATTRIBUTE_NORMAL, "normals", "three floats or normalised integers", 3)?;
+    let normals = normals.iter().map(|v| v.truncate()).collect();
+    rest.rest().await;
     let uvs = spread(Mesh::ATTRIBUTE_UV_0, "texture coordinates", "two floats or normalised integers", 2)?;
+    let uvs = uvs.iter().map(|v| Vec2::new(v.x, v.y)).collect();
+    rest.rest().await;
     let uvs_1 = spread(Mesh::ATTRIBUTE_UV_1, "second texture coordinates", "two floats or normalised integers", 2)?;
+    let uvs_1 = uvs_1.iter().map(|v| Vec2::new(v.x, v.y)).collect();
+    rest.rest().await;
     let tangents = spread(Mesh::ATTRIBUTE_TANGENT, "tangents", "four floats or normalised integers", 4)?;
+    rest.rest().await;
     let colors = spread(Mesh::ATTRIBUTE_COLOR, "vertex colours", "three or four floats or normalised integers", 3)?;
-    Ok(Corners {
-        normals: normals.iter().map(|v| v.truncate()).collect(),
-        uvs: uvs.iter().map(|v| Vec2::new(v.x, v.y)).collect(),
-        uvs_1: uvs_1.iter().map(|v| Vec2::new(v.x, v.y)).collect(),
-        tangents,
-        colors,
-        triangles,
-    })
+    rest.rest().await;
+    Ok(Corners { triangles, normals, uvs, uvs_1, tangents, colors })
 }
 
 /// Returns the triangles of a list or strip, with or without indices. Indices left over at the end of a list are

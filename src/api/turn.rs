@@ -19,7 +19,7 @@ use bevy::{
 use web_time::Instant;
 
 use super::budget::CoatingBudget;
-use crate::remesh::Rest;
+use crate::rest::Rest;
 
 /// Time after which a task lets others go on where there are threads for background work. Most are done before.
 const TURN: Duration = Duration::from_millis(50);

@@ -7,6 +7,7 @@ use bevy_math::{Vec2, Vec3, Vec4, VectorSpace};
 use crate::{
     film::FilmMesh,
     remesh::BuiltFilm,
+    rest::{LIGHT_PIECE, Rest},
     surface::{Surface, SurfaceSite},
 };
 
@@ -90,6 +91,19 @@ pub(super) fn sample<T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output =
     sites: &[SurfaceSite],
 ) -> Vec<T> {
     if values.is_empty() { Vec::new() } else { sites.iter().map(|site| sample_at(values, site)).collect() }
+}
+
+/// Does what [`sample`] does, with rests between its pieces.
+pub(super) async fn sample_in_pieces<T>(values: &[T], sites: &[SurfaceSite], rest: &mut impl Rest) -> Vec<T>
+where
+    T: VectorSpace + Copy + Mul<f32, Output = T> + Add<Output = T> + Send + Sync,
+{
+    let mut sampled = Vec::with_capacity(if values.is_empty() { 0 } else { sites.len() });
+    for piece in sites.chunks(LIGHT_PIECE).filter(|_| !values.is_empty()) {
+        sampled.extend(piece.iter().map(|site| sample_at(values, site)));
+        rest.rest().await;
+    }
+    sampled
 }
 
 /// Interpolates the corner values `values` at one site. Values that are missing count as zero.

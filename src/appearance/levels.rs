@@ -15,6 +15,7 @@ use crate::{
     film::FilmMesh,
     fracture::FilmForces,
     remesh::BuiltFilm,
+    rest::{NoRest, Rest, at_once},
     stain::StainFields,
     surface::{BuildError, Surface},
 };
@@ -56,19 +57,23 @@ pub struct FilmLevels {
 
 impl FilmLevels {
     /// Samples `surface`.
-    pub(super) fn sample(
+    pub(super) async fn sample(
         built: &BuiltFilm,
         surface: &Surface,
         mesh: &FilmMesh,
         forces: &FilmForces,
         detail: Detail,
+        rest: &mut impl Rest,
     ) -> Result<Self, BuildError> {
         let attributes = CornerAttributes::sample(built, surface, mesh);
+        rest.rest().await;
         let mut levels = Self::coarse(built, attributes, mesh, forces);
+        rest.rest().await;
         levels.detail = detail;
         if detail.level > 0 {
             let Self { attributes, wedges, face_slots, .. } = &levels;
-            let base = Base::sample(built, surface, mesh, attributes, wedges.clone(), face_slots, detail.level)?;
+            let wedges = wedges.clone();
+            let base = Base::sample(built, surface, mesh, attributes, wedges, face_slots, detail.level, rest).await?;
             levels.finest = Some(Arc::new(base));
         }
         Ok(levels)
@@ -111,15 +116,30 @@ impl FilmLevels {
     /// Returns the appearance of the film in the state of `mesh`, `forces` and `stains` at `level`, or at the finest
     /// that there is.
     pub fn appearance(&self, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> FilmAppearance {
-        FilmAppearance::begin(self.clone(), level, mesh, forces, stains)
+        at_once(self.appearance_in_pieces(level, mesh, forces, stains, &mut NoRest))
+    }
+
+    /// Does what [`appearance`](Self::appearance) does, with rests between its pieces.
+    pub(crate) async fn appearance_in_pieces(
+        &self,
+        level: u32,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        rest: &mut impl Rest,
+    ) -> FilmAppearance {
+        FilmAppearance::begin(self.clone(), level, mesh, forces, stains, rest).await
     }
 
     /// Returns the surface that shows a film at `level`, or at the finest that there is.
-    pub(super) fn surface(&self, level: u32, mesh: &FilmMesh) -> Shown {
+    pub(super) async fn surface(&self, level: u32, mesh: &FilmMesh, rest: &mut impl Rest) -> Shown {
         let slots = self.face_slots.slot_count();
         match &self.finest {
             Some(finest) if level > 0 => {
-                let base = if level < self.finest() { Arc::new(finest.coarser(mesh, level)) } else { finest.clone() };
+                let base = match level < self.finest() {
+                    true => Arc::new(finest.coarser(mesh, level, rest).await),
+                    false => finest.clone(),
+                };
                 let [chips, thickness] = [self.detail.chips, self.detail.thickness].map(|grains| grains * self.grain);
                 Shown::Fine(Box::new(FineSurface::new(mesh, base, slots, chips, thickness)))
             }

@@ -61,6 +61,7 @@ use crate::{
     film::FilmMesh,
     fracture::FilmForces,
     remesh::BuiltFilm,
+    rest::{NoRest, Rest, at_once},
     stain::StainFields,
     surface::{BuildError, Surface},
 };
@@ -140,16 +141,39 @@ impl FilmAppearance {
         stains: &StainFields,
         detail: Detail,
     ) -> Result<Self, BuildError> {
-        let levels = FilmLevels::sample(built, surface, mesh, forces, detail)?;
-        Ok(levels.appearance(detail.level, mesh, forces, stains))
+        at_once(Self::in_pieces(built, surface, mesh, forces, stains, detail, &mut NoRest))
     }
 
-    fn begin(levels: FilmLevels, level: u32, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields) -> Self {
-        let (shown, level) = (levels.surface(level, mesh), level.min(levels.finest()));
+    /// Does what [`with_detail`](Self::with_detail) does, with rests between its pieces.
+    ///
+    /// # Errors
+    /// See [`with_detail`](Self::with_detail).
+    pub(crate) async fn in_pieces(
+        built: &BuiltFilm,
+        surface: &Surface,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        detail: Detail,
+        rest: &mut impl Rest,
+    ) -> Result<Self, BuildError> {
+        let levels = FilmLevels::sample(built, surface, mesh, forces, detail, rest).await?;
+        Ok(levels.appearance_in_pieces(detail.level, mesh, forces, stains, rest).await)
+    }
+
+    async fn begin(
+        levels: FilmLevels,
+        level: u32,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        rest: &mut impl Rest,
+    ) -> Self {
+        let (shown, level) = (levels.surface(level, mesh, rest).await, level.min(levels.finest()));
         let seen = Seen::new(levels.tolerance(mesh));
         let mut appearance = Self { levels, level, seen, shown, outdated: true };
         let changes = DisplayChanges::everything_in(appearance.levels.epoch);
-        appearance.update(mesh, forces, stains, changes);
+        appearance.update_in_pieces(mesh, forces, stains, changes, rest).await;
         appearance
     }
 
@@ -235,14 +259,27 @@ impl FilmAppearance {
     /// Faces and vertices keep their places in the parts' arrays, and only what changed is written. Under
     /// `changes` of another [epoch](DisplayChanges::epoch) than the last update's, everything is made again.
     pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, stains: &StainFields, changes: DisplayChanges) {
+        at_once(self.update_in_pieces(mesh, forces, stains, changes, &mut NoRest));
+    }
+
+    /// Does what [`update`](Self::update) does, with rests between its pieces.
+    pub(crate) async fn update_in_pieces(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        stains: &StainFields,
+        changes: DisplayChanges,
+        rest: &mut impl Rest,
+    ) {
         let Self { levels: FilmLevels { face_slots, epoch, .. }, seen, shown, outdated, .. } = self;
         let replaced = std::mem::replace(epoch, changes.epoch) != changes.epoch;
         let whole = std::mem::take(outdated) || replaced;
         let changes = if whole { DisplayChanges::everything() } else { changes };
         seen.follow(mesh, forces, stains, changes, whole);
+        rest.rest().await;
         match shown {
-            Shown::Coarse(coarse) => coarse.update(mesh, forces, face_slots, seen),
-            Shown::Fine(fine) => fine.update(mesh, forces, face_slots, seen),
+            Shown::Coarse(coarse) => coarse.update(mesh, forces, face_slots, seen, rest).await,
+            Shown::Fine(fine) => fine.update(mesh, forces, face_slots, seen, rest).await,
         }
     }
 

@@ -14,7 +14,8 @@ use crate::{
     display::{FilmDisplay, FilmPaint},
     history::{Event, History},
     mesh_reader::surface_of,
-    remesh::{FilmTarget, Rest, build_film_in_pieces as remesh},
+    remesh::{FilmTarget, build_film_in_pieces as remesh},
+    rest::Rest,
     settings::CoatingSettings,
     shelter::{CastOrder, FilmShelter},
     sim::{FilmState, coarser_than_grain},
@@ -85,21 +86,26 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
     let FilmInputs { target: most, shelter, saved, history, .. } = inputs;
     let FilmInputs { meshes, key, settings, quality, masks, scale, past, .. } = inputs;
     let mut turn = Turn::begin().await;
-    let (mut surface, attributes) = surface_of(&meshes, scale)?;
+    let (mut surface, attributes) = surface_of(&meshes, scale, &mut turn).await?;
     drop(meshes);
     let origin = surface.recentre();
     turn.rest().await;
     let mut built = remesh(&surface, target, seed, &mut turn).await?;
     turn.rest().await;
-    let mut film = FilmState::new(&built, &settings, seed, key.steps_per_age)
-        .ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
+    let film = FilmState::new_in_pieces(&built, &settings, seed, key.steps_per_age, &mut turn).await;
+    let mut film = film.ok_or(BuildError::AllDegenerate { triangles: surface.triangles.len() })?;
     film.quality = quality;
     masks.apply(&mut film, &surface, &built)?;
     built.warnings.extend(coarser_than_grain(&film.mesh, key.resolution, target, &settings.scale));
     turn.rest().await;
-    let mut display = FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint, key.detail)?;
+    let detail = key.detail;
+    let mut display =
+        FilmDisplay::new(&film, &surface, &built, attributes, scale, origin, paint, detail, &mut turn).await?;
     turn.rest().await;
-    let shelter = shelter.map(|order| cast(order.shifted(origin), &mut film)).unwrap_or_default();
+    let shelter = match shelter {
+        Some(order) => cast(order.shifted(origin), &mut film, &mut turn).await,
+        None => FilmShelter::default(),
+    };
     turn.rest().await;
     let (state, since) = saved.unzip();
     let restored = state.map(|state| film.restore(&state).map_err(Arc::new));
@@ -119,7 +125,7 @@ pub(super) async fn build_film(order: FilmOrder) -> Result<Box<FilmReadiness>, C
             turn.rest().await;
         }
     }
-    display.prepare(life.film());
+    display.prepare(life.film(), &mut turn).await;
     let (film, history) = life.end();
     let warnings = built.warnings;
     let refused = restored.and_then(Result::err);
@@ -187,10 +193,10 @@ impl Life {
 }
 
 /// Casts rays for a fresh film and stores its exposure to rain and sun.
-fn cast(mut order: CastOrder, film: &mut FilmState) -> FilmShelter {
-    let surface = Arc::new(ExposedSurface::new(&film.mesh));
+async fn cast(mut order: CastOrder, film: &mut FilmState, turn: &mut Turn) -> FilmShelter {
+    let surface = Arc::new(ExposedSurface::new_in_pieces(&film.mesh, turn).await);
     order.cull(surface.sphere());
-    film.stains.exposure = order.cast(&surface);
+    film.stains.exposure = order.cast(&surface, turn).await;
     FilmShelter::of_built(surface, order.key)
 }
 

@@ -25,6 +25,7 @@ use crate::{
     fracture::FilmForces,
     mesh_reader::SlotAttributes,
     remesh::BuiltFilm,
+    rest::Rest,
     sim::{FilmState, Stage},
     stain::StainFields,
     surface::{BuildError, Surface},
@@ -93,11 +94,12 @@ pub(super) struct DisplaySlot {
 }
 
 impl FilmDisplay {
-    /// Returns the display of a film at rest, shown as finely as `detail` says.
+    /// Returns the display of a film at rest, shown as finely as `detail` says, with rests between the pieces of the
+    /// work.
     ///
     /// # Errors
     /// The errors of [`FilmAppearance::with_detail`].
-    pub fn new(
+    pub async fn new(
         film: &FilmState,
         surface: &Surface,
         built: &BuiltFilm,
@@ -106,6 +108,7 @@ impl FilmDisplay {
         origin: Vec3,
         paint: FilmPaint,
         detail: Detail,
+        rest: &mut impl Rest,
     ) -> Result<Self, BuildError> {
         let empty = |attributes| {
             let canvas = StainCanvas::default();
@@ -113,7 +116,7 @@ impl FilmDisplay {
         };
         let FilmState { mesh, forces, stains, .. } = film;
         Ok(Self {
-            appearance: FilmAppearance::with_detail(built, surface, mesh, forces, stains, detail)?,
+            appearance: FilmAppearance::in_pieces(built, surface, mesh, forces, stains, detail, rest).await?,
             space: PartSpace::new(scale, origin),
             paint,
             film_edge: mesh.geometry.mean_edge,
@@ -136,11 +139,13 @@ impl FilmDisplay {
     }
 
     /// Brings the appearance up to date with the film as it is put on its prop, and writes the meshes. It runs in the
-    /// background, as the end of a build.
-    pub fn prepare(&mut self, film: &FilmState) {
-        self.appearance.update(&film.mesh, &film.forces, &film.stains, DisplayChanges::everything());
+    /// background, as the end of a build, and rests in between.
+    pub async fn prepare(&mut self, film: &FilmState, rest: &mut impl Rest) {
+        let FilmState { mesh, forces, stains, .. } = film;
+        self.appearance.update_in_pieces(mesh, forces, stains, DisplayChanges::everything(), rest).await;
         let Self { appearance, slots, paint, space, edge, .. } = self;
         for (slot, display) in slots.iter_mut().enumerate() {
+            rest.rest().await;
             if let Some(new) = write_front(appearance, slot, display.attributes, paint, *edge, *space) {
                 (display.mesh, display.canvas, display.shown) = (Some(new.mesh), new.canvas, new.shown);
             }

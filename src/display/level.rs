@@ -119,9 +119,9 @@ fn begin(
     let (edge, space) = (display.film_edge, display.space);
     let attributes: Vec<SlotAttributes> = display.slots.iter().map(|slot| slot.attributes).collect();
     let task = AsyncComputeTaskPool::get().spawn(async move {
-        let _turn = Turn::begin().await;
-        let appearance = levels.appearance(level, &mesh, &forces, &stains);
-        PreparedLevel::new(appearance, &attributes, paint, edge, space)
+        let mut turn = Turn::begin().await;
+        let appearance = levels.appearance_in_pieces(level, &mesh, &forces, &stains, &mut turn).await;
+        PreparedLevel::new(appearance, &attributes, paint, edge, space, &mut turn).await
     });
     LevelChange { level, task }
 }

@@ -12,6 +12,7 @@ use crate::{
     appearance::{FilmAppearance, shading::StainPart},
     film::FaceGrid,
     mesh_reader::SlotAttributes,
+    rest::Rest,
 };
 
 /// Returns the mean distance between the vertices that show a film with edges of `film_edge` at `level`.
@@ -51,17 +52,21 @@ pub(super) struct PreparedLevel {
 }
 
 impl PreparedLevel {
-    /// Writes the meshes of `appearance`, for a film with edges of `film_edge`.
-    pub fn new(
+    /// Writes the meshes of `appearance`, for a film with edges of `film_edge`, and rests before each.
+    pub async fn new(
         appearance: FilmAppearance,
         attributes: &[SlotAttributes],
         paint: FilmPaint,
         film_edge: f32,
         space: PartSpace,
+        rest: &mut impl Rest,
     ) -> Self {
         let edge = edge_at(film_edge, appearance.level());
-        let front = |(slot, &attributes)| write_front(&appearance, slot, attributes, &paint, edge, space);
-        let fronts = attributes.iter().enumerate().map(front).collect();
+        let mut fronts = Vec::with_capacity(attributes.len());
+        for (slot, &attributes) in attributes.iter().enumerate() {
+            rest.rest().await;
+            fronts.push(write_front(&appearance, slot, attributes, &paint, edge, space));
+        }
         Self { appearance, fronts, paint }
     }
 }

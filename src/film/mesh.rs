@@ -9,6 +9,7 @@ use super::{
     handles::{FaceId, HalfEdgeId},
     topology::{Topology, TopologyError},
 };
+use crate::rest::{NoRest, Rest, at_once};
 
 /// The film of one coated prop: a half-edge triangle mesh with its positions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,13 +45,26 @@ impl FilmMesh {
     /// assert!(FilmMesh::new(vec![Vec3::ZERO, Vec3::X], &[[0, 1, 1]]).is_err());
     /// # Ok::<(), bevy_coating::film::TopologyError>(())
     /// ```
-    pub fn new(mut positions: Vec<Vec3>, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+    pub fn new(positions: Vec<Vec3>, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+        at_once(Self::new_in_pieces(positions, triangles, &mut NoRest))
+    }
+
+    /// Does what [`new`](Self::new) does, with rests between its pieces.
+    ///
+    /// # Errors
+    /// See [`new`](Self::new).
+    pub(crate) async fn new_in_pieces(
+        mut positions: Vec<Vec3>,
+        triangles: &[[u32; 3]],
+        rest: &mut impl Rest,
+    ) -> Result<Self, TopologyError> {
         for p in &mut positions {
             // Times zero: the sign stays, and with it every bit of a zero that was one already.
             *p = Vec3::select(p.abs().cmplt(Vec3::splat(LEAST_COORDINATE)), *p * 0.0, *p);
         }
-        let topology = Topology::from_triangles(positions.len(), triangles)?;
+        let topology = Topology::in_pieces(positions.len(), triangles, rest).await?;
         let geometry = Geometry::at_rest(&topology, positions);
+        rest.rest().await;
         Ok(Self { topology, geometry })
     }
 

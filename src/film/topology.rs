@@ -4,6 +4,7 @@
 //! only twins are stored. A twin is never forgotten: a torn edge keeps its twins, and a flag says that it is torn.
 
 use super::handles::{FaceId, HalfEdgeId, VertexId};
+use crate::rest::{NoRest, Rest, at_once, sort_by_number};
 
 /// State of a face: part of the film or removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,6 +101,15 @@ impl Topology {
     /// assert_eq!(error, TopologyError::NonManifoldVertex { vertex: 0 });
     /// ```
     pub fn from_triangles(vertices: usize, triangles: &[[u32; 3]]) -> Result<Self, TopologyError> {
+        at_once(Self::in_pieces(vertices, triangles, &mut NoRest))
+    }
+
+    /// Does what [`from_triangles`](Self::from_triangles) does, with rests between its pieces.
+    pub(super) async fn in_pieces(
+        vertices: usize,
+        triangles: &[[u32; 3]],
+        rest: &mut impl Rest,
+    ) -> Result<Self, TopologyError> {
         let mut origins = Vec::with_capacity(triangles.len() * 3);
         for (i, t) in triangles.iter().enumerate() {
             let distinct = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
@@ -119,21 +129,23 @@ impl Topology {
             removed_faces: 0,
             origins,
         };
-        topology.pair_twins()?;
+        topology.pair_twins(rest).await?;
+        rest.rest().await;
         topology.find_fans()?;
+        rest.rest().await;
         Ok(topology)
     }
 
     /// Finds the twin of every half-edge that has one.
-    fn pair_twins(&mut self) -> Result<(), TopologyError> {
-        let mut order: Vec<(u32, u32, HalfEdgeId)> = self
+    async fn pair_twins(&mut self, rest: &mut impl Rest) -> Result<(), TopologyError> {
+        let order: Vec<(u32, u32, HalfEdgeId)> = self
             .all_half_edges()
             .map(|h| {
                 let (a, b) = (self.origin(h).0, self.target(h).0);
                 (a.min(b), a.max(b), h)
             })
             .collect();
-        order.sort_unstable();
+        let order = sort_by_number(order, |edge| edge.0, rest).await;
         for group in order.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             match *group {
                 [_] => {}

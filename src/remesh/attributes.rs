@@ -5,6 +5,7 @@ use bevy_math::{Vec3, Vec4};
 use super::topology::Topology;
 use crate::{
     film::HalfEdgeId,
+    rest::{LIGHT_PIECE, Rest},
     surface::{CleanSurface, Surface, SurfaceSite},
 };
 
@@ -35,27 +36,46 @@ pub(super) struct Attributes {
 }
 
 impl Attributes {
-    pub fn new(surface: &Surface, clean: &CleanSurface) -> Self {
+    pub async fn new(surface: &Surface, clean: &CleanSurface, rest: &mut impl Rest) -> Self {
+        let mut all = Self { channels: Vec::new() };
         let corners = 3 * surface.triangles.len();
-        let mut channels = Vec::new();
-        let mut add = |length: usize, seam: f32, bend: f32, value: &dyn Fn(usize) -> Vec4| {
-            if length == corners && corners > 0 {
-                let at_site = |site: &SurfaceSite| {
-                    let [a, b, c] = [0, 1, 2].map(|k| value(3 * site.triangle as usize + k));
-                    a * site.weights.x + b * site.weights.y + c * site.weights.z
-                };
-                channels.push(Channel { values: clean.sites.iter().flatten().map(at_site).collect(), seam, bend });
-            }
-        };
+        let has = |length: usize| length == corners && corners > 0;
         let direction = |v: Vec3| v.normalize_or_zero();
-        add(surface.uvs.len(), UV_SEAM, UV_BEND, &|i| surface.uvs[i].extend(0.0).extend(0.0));
-        add(surface.uvs_1.len(), UV_SEAM, UV_BEND, &|i| surface.uvs_1[i].extend(0.0).extend(0.0));
-        add(surface.normals.len(), DIRECTION_SEAM, DIRECTION_BEND, &|i| direction(surface.normals[i]).extend(0.0));
-        add(surface.tangents.len(), DIRECTION_SEAM, DIRECTION_BEND, &|i| {
-            direction(surface.tangents[i].truncate()).extend(surface.tangents[i].w)
-        });
-        add(surface.colors.len(), COLOR_SEAM, COLOR_BEND, &|i| surface.colors[i]);
-        Self { channels }
+        for uvs in [&surface.uvs, &surface.uvs_1].into_iter().filter(|uvs| has(uvs.len())) {
+            all.add(clean, UV_SEAM, UV_BEND, |i| uvs[i].extend(0.0).extend(0.0), rest).await;
+        }
+        if has(surface.normals.len()) {
+            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, |i| direction(surface.normals[i]).extend(0.0), rest).await;
+        }
+        if has(surface.tangents.len()) {
+            let tangent = |i: usize| direction(surface.tangents[i].truncate()).extend(surface.tangents[i].w);
+            all.add(clean, DIRECTION_SEAM, DIRECTION_BEND, tangent, rest).await;
+        }
+        if has(surface.colors.len()) {
+            all.add(clean, COLOR_SEAM, COLOR_BEND, |i| surface.colors[i], rest).await;
+        }
+        all
+    }
+
+    /// Adds an attribute with a `value` at each corner of the surface.
+    async fn add(
+        &mut self,
+        clean: &CleanSurface,
+        seam: f32,
+        bend: f32,
+        value: impl Fn(usize) -> Vec4 + Send + Sync,
+        rest: &mut impl Rest,
+    ) {
+        let at_site = |site: &SurfaceSite| {
+            let [a, b, c] = [0, 1, 2].map(|k| value(3 * site.triangle as usize + k));
+            a * site.weights.x + b * site.weights.y + c * site.weights.z
+        };
+        let mut values = Vec::with_capacity(3 * clean.sites.len());
+        for piece in clean.sites.chunks(LIGHT_PIECE) {
+            values.extend(piece.iter().flatten().map(&at_site));
+            rest.rest().await;
+        }
+        self.channels.push(Channel { values, seam, bend });
     }
 
     /// Returns whether an attribute differs between the two sides of the edge, at either end. Where the film must be

@@ -10,7 +10,10 @@ use bevy_math::Vec3;
 
 use super::features::Features;
 use super::topology::Topology;
-use crate::film::{HalfEdgeId, VertexId};
+use crate::{
+    film::{HalfEdgeId, VertexId},
+    rest::{LIGHT_PIECE, PIECE, Rest, pieces},
+};
 
 /// Index of no chain, for edges that are not features.
 pub(super) const NO_CHAIN: u32 = u32::MAX;
@@ -49,17 +52,21 @@ pub(super) struct ChainPoint {
 impl Chains {
     /// Joins the feature edges into chains. Returns the chains and the chain of every half-edge, and marks the vertices
     /// at which chains end in `fixed`.
-    pub fn new(
+    pub async fn new(
         topology: &Topology,
         positions: &[Vec3],
         features: &Features,
         target: f32,
         fixed: &mut [bool],
+        rest: &mut impl Rest,
     ) -> (Self, Vec<u32>) {
         let mut links = Vec::new();
-        for v in (0..topology.vertex_slots()).map(VertexId::new) {
-            collect_links(topology, features, v, &mut links);
-            fixed[v.index()] |= !links.is_empty() && links.len() != 2;
+        for piece in pieces(topology.vertex_slots(), LIGHT_PIECE) {
+            for v in piece.map(VertexId::new) {
+                collect_links(topology, features, v, &mut links);
+                fixed[v.index()] |= !links.is_empty() && links.len() != 2;
+            }
+            rest.rest().await;
         }
         let mut chains = Self::default();
         let mut chain_of = vec![NO_CHAIN; 3 * topology.face_slots()];
@@ -93,13 +100,15 @@ impl Chains {
                 chains.cut_and_add(positions, &vertices, &path, target, fixed, &mut chain_of);
             }
         };
-        let all = || (0..topology.vertex_slots()).map(VertexId::new);
-        for v in all().filter(|v| fixed[v.index()]).collect::<Vec<_>>() {
-            trace(v, fixed);
+        let ends: Vec<_> = (0..topology.vertex_slots()).map(VertexId::new).filter(|v| fixed[v.index()]).collect();
+        for piece in ends.chunks(PIECE) {
+            piece.iter().for_each(|&v| trace(v, fixed));
+            rest.rest().await;
         }
         // The lines that are left are closed and have no corner.
-        for v in all() {
-            trace(v, fixed);
+        for piece in pieces(topology.vertex_slots(), LIGHT_PIECE) {
+            piece.map(VertexId::new).for_each(|v| trace(v, fixed));
+            rest.rest().await;
         }
         (chains, chain_of)
     }

@@ -3,9 +3,11 @@
 use bevy_math::Vec3;
 
 use super::project::{distance_to_triangle, project};
-use super::rest::{PIECE, Rest};
 use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
-use crate::film::{HalfEdgeId, VertexId};
+use crate::{
+    film::{HalfEdgeId, VertexId},
+    rest::{PIECE, Rest, sort_by_number},
+};
 
 /// Limits that a collapse must respect.
 #[derive(Clone, Copy, Debug)]
@@ -26,13 +28,16 @@ pub(super) struct CollapseLimits {
 
 /// Collapses short edges, the shortest first.
 pub(super) async fn collapse_short_edges(mesh: &mut WorkMesh<'_>, limits: CollapseLimits, rest: &mut impl Rest) {
-    let mut short: Vec<(f32, HalfEdgeId)> = mesh
+    // The bits of lengths are in the order of lengths, as none is negative.
+    let short: Vec<(u32, HalfEdgeId)> = mesh
         .topology
         .edges()
         .map(|h| (mesh.sized_length(h), h))
         .filter(|&(length, _)| length < limits.shortest)
+        .map(|(length, h)| (length.to_bits(), h))
         .collect();
-    short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    rest.rest().await;
+    let short = sort_by_number(short, |edge| edge.0, rest).await;
     for (i, (_, h)) in short.into_iter().enumerate() {
         if i.is_multiple_of(PIECE) {
             rest.rest().await;

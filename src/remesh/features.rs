@@ -11,6 +11,7 @@ use super::seams::Seams;
 use super::topology::Topology;
 use crate::{
     film::{FaceId, HalfEdgeId},
+    rest::{LIGHT_PIECE, Rest, pieces},
     surface::{CleanSurface, Surface},
 };
 
@@ -81,14 +82,15 @@ pub(super) struct Features {
 
 impl Features {
     /// Classifies the edges for a film of this scale.
-    pub fn find(
+    pub async fn find(
         surface: &Surface,
         clean: &CleanSurface,
         topology: &Topology,
         normals: &[Vec3],
         Scale { target, triangles, fidelity }: Scale,
+        rest: &mut impl Rest,
     ) -> Self {
-        let seams = Seams::new(surface, clean);
+        let seams = Seams::new(surface, clean, rest).await;
         let positions = &clean.positions;
         let low_poly =
             fidelity == Fidelity::Facets && clean.triangles.len() as f32 <= LOW_POLY.max(LOW_POLY_SHARE * triangles);
@@ -112,28 +114,31 @@ impl Features {
             fidelity == Fidelity::Facets || a.distance(b) >= target
         };
         let mut kinds = vec![Kind::Free; 3 * topology.face_slots()];
-        for h in topology.edges() {
-            let Some(t) = topology.twin(h) else {
-                let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target && is_long(h);
-                kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
-                continue;
-            };
-            let (f, g) = (h.face(), t.face());
-            let cosine = normals[f.index()].dot(normals[g.index()]);
-            let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target && is_long(h);
-            let seam = seams.divide(h, t, exact);
-            let uneven = || cosine < FLAT || seams.attributes.bend(topology, positions, h, t, target);
-            let kind = if exact && (seam || uneven()) {
-                Kind::Exact
-            } else if seam {
-                Kind::Line
-            } else if cosine < CREASE && !is_narrow(h, t) {
-                if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
-            } else {
-                Kind::Free
-            };
-            kinds[h.index()] = kind;
-            kinds[t.index()] = kind;
+        for half_edges in pieces(topology.half_edge_slots(), LIGHT_PIECE) {
+            for h in topology.edges_in(half_edges) {
+                let Some(t) = topology.twin(h) else {
+                    let exact = low_poly || height(h) >= LOW_POLY_HEIGHT * target && is_long(h);
+                    kinds[h.index()] = if exact { Kind::Exact } else { Kind::Line };
+                    continue;
+                };
+                let (f, g) = (h.face(), t.face());
+                let cosine = normals[f.index()].dot(normals[g.index()]);
+                let exact = low_poly || height(h).min(height(t)) >= LOW_POLY_HEIGHT * target && is_long(h);
+                let seam = seams.divide(h, t, exact);
+                let uneven = || cosine < FLAT || seams.attributes.bend(topology, positions, h, t, target);
+                let kind = if exact && (seam || uneven()) {
+                    Kind::Exact
+                } else if seam {
+                    Kind::Line
+                } else if cosine < CREASE && !is_narrow(h, t) {
+                    if is_small(f) && is_small(g) { Kind::Doubtful } else { Kind::Line }
+                } else {
+                    Kind::Free
+                };
+                kinds[h.index()] = kind;
+                kinds[t.index()] = kind;
+            }
+            rest.rest().await;
         }
         Self { kinds }
     }

@@ -3,22 +3,32 @@
 use bevy_math::Vec3;
 
 use super::work_mesh::{FOLD, WorkMesh, count_edit, quality};
-use crate::film::HalfEdgeId;
+use crate::{
+    film::HalfEdgeId,
+    rest::{LIGHT_PIECE, Rest},
+};
 
 /// Cosine of the angle between two faces above which the edge between them is flipped only if it comes closer to the
 /// surface: about 15 degrees.
 const BENT: f32 = 0.966;
 
 /// Flips edges until no flip improves the triangles. Features are never flipped.
-pub(super) fn flip_edges(mesh: &mut WorkMesh) {
+pub(super) async fn flip_edges(mesh: &mut WorkMesh<'_>, rest: &mut impl Rest) {
     let mut queue: Vec<HalfEdgeId> = mesh.topology.edges().collect();
     // Every flip raises a least angle, so this ends by itself, but rounding might turn one pair for ever.
     let mut budget = 10 * queue.len();
-    while let Some(h) = queue.pop() {
-        if budget == 0 {
-            return;
-        }
-        budget -= 1;
+    while budget > 0 && !queue.is_empty() {
+        let piece = budget.min(LIGHT_PIECE);
+        budget -= piece;
+        flip_some(mesh, &mut queue, piece);
+        rest.rest().await;
+    }
+}
+
+/// Flips up to so many edges of the queue.
+fn flip_some(mesh: &mut WorkMesh, queue: &mut Vec<HalfEdgeId>, most: usize) {
+    for _ in 0..most {
+        let Some(h) = queue.pop() else { return };
         if flip_if(mesh, h, is_better_delaunay)
             && let Some(t) = mesh.topology.twin(h)
         {

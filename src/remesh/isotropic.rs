@@ -17,14 +17,16 @@ use super::{
     order, polish,
     reference::Reference,
     relax::{self, Relaxation},
-    rest::Rest,
     sites,
     sizing::LEAST_PART,
     split::{self, SplitLimits},
     target::{FilmTarget, count_of_edge, edge_of_area},
     work_mesh::{WorkMesh, quality},
 };
-use crate::surface::{BuildError, BuildWarning, CleanSurface, Surface};
+use crate::{
+    rest::Rest,
+    surface::{BuildError, BuildWarning, CleanSurface, Surface},
+};
 
 /// Split and collapse thresholds over the target edge length (Botsch and Kobbelt: 4/3 and 4/5).
 const SPLIT: f32 = 4.0 / 3.0;
@@ -96,8 +98,7 @@ pub(super) async fn remesh(
     let mut fidelity = Fidelity::Facets;
     let (mut film, starved) = loop {
         let scale = Scale { target: length, triangles: count as f32, fidelity };
-        let mut reference = Reference::new(surface, clean, scale);
-        rest.rest().await;
+        let mut reference = Reference::new(surface, clean, scale, rest).await;
         let less = fidelity.next();
         // Every fixed vertex takes a triangle or two.
         if let Some(less) = less
@@ -115,11 +116,11 @@ pub(super) async fn remesh(
             continue;
         }
         // Bars thinner than the triangles lose their roundness, unless the film is held closer to them.
-        let loss = ShapeLoss::of(clean, &film);
+        let loss = ShapeLoss::of(clean, &film, rest).await;
         if loss.excess() > 1.0 {
             reference.closeness = CLOSER;
             let (closer, asks_too_much) = build(surface, clean, &reference, goal, rest).await;
-            if !asks_too_much && ShapeLoss::of(clean, &closer).excess() < loss.excess() {
+            if !asks_too_much && ShapeLoss::of(clean, &closer, rest).await.excess() < loss.excess() {
                 film = closer;
             }
         }
@@ -138,7 +139,8 @@ pub(super) async fn remesh(
         let triangles = (f64::from(starved) * 2.0 * LEAST_PART).ceil() as u32;
         film.warnings.push(BuildWarning::SmallPartsCoarse { parts: starved, triangles });
     }
-    film.warnings.extend(ShapeLoss::of(clean, &film).warning(target));
+    film.warnings.extend(ShapeLoss::of(clean, &film, rest).await.warning(target));
+    rest.rest().await;
     Ok(order::along_curve(film))
 }
 
@@ -163,10 +165,10 @@ async fn build(
     rest: &mut impl Rest,
 ) -> (BuiltFilm, bool) {
     let mut mesh = WorkMesh::new(reference);
+    rest.rest().await;
     run(&mut mesh, goal, rest).await;
     let asks_too_much = asks_too_much(&mesh, goal.count, goal.fidelity);
-    let film = sites::finish(&mesh, surface, clean);
-    rest.rest().await;
+    let film = sites::finish(&mesh, surface, clean, rest).await;
     (film, asks_too_much)
 }
 
@@ -202,13 +204,10 @@ async fn run(mesh: &mut WorkMesh<'_>, goal: Goal, rest: &mut impl Rest) {
     for round in 0..ROUNDS {
         // In the first rounds the edges are still too long or too short to judge bends by them.
         let stray = if round < SETTLING_ROUNDS { f32::MAX } else { STRAY_SPLIT * edge };
-        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge, most) }, rng);
-        rest.rest().await;
-        flip::flip_edges(mesh);
+        split::split_edges(mesh, SplitLimits { stray, ..cuts(edge, most) }, rng, rest).await;
+        flip::flip_edges(mesh, rest).await;
         collapse::collapse_short_edges(mesh, limits(edge), rest).await;
-        rest.rest().await;
-        flip::flip_edges(mesh);
-        rest.rest().await;
+        flip::flip_edges(mesh, rest).await;
         relax(mesh, edge, JITTER * edge, rng, rest).await;
         if is_count(target) {
             let ratio = (mesh.topology.live_faces() as f64 / count).sqrt() as f32;
@@ -217,9 +216,8 @@ async fn run(mesh: &mut WorkMesh<'_>, goal: Goal, rest: &mut impl Rest) {
     }
     for _ in 0..CALM_ROUNDS {
         relax(mesh, edge, 0.0, rng, rest).await;
-        split::split_edges(mesh, cuts(edge, most), rng);
-        flip::flip_edges(mesh);
-        rest.rest().await;
+        split::split_edges(mesh, cuts(edge, most), rng, rest).await;
+        flip::flip_edges(mesh, rest).await;
     }
     let mut fewest_faces = 4;
     if let FilmTarget::Triangles(count) = target {
@@ -229,8 +227,7 @@ async fn run(mesh: &mut WorkMesh<'_>, goal: Goal, rest: &mut impl Rest) {
     }
     for _ in 0..POLISH_ROUNDS {
         let limits = CollapseLimits { shortest: edge, longest: 1.5 * edge, quality: 1.0, fewest_faces, ..limits(edge) };
-        polish::polish(mesh, limits, edge);
-        rest.rest().await;
+        polish::polish(mesh, limits, edge, rest).await;
     }
 }
 
@@ -244,8 +241,8 @@ async fn meet_count(
 ) {
     let reserve = CollapseLimits { shortest: edge, longest: 1.5 * edge, ..limits };
     collapse::collapse_short_edges(mesh, reserve, rest).await;
-    split::split_longest_edges(mesh, edge, limits.fewest_faces, rng);
-    flip::flip_edges(mesh);
+    split::split_longest_edges(mesh, edge, limits.fewest_faces, rng, rest).await;
+    flip::flip_edges(mesh, rest).await;
 }
 
 fn cuts(edge: f32, most_faces: usize) -> SplitLimits {
@@ -267,8 +264,7 @@ async fn relax(mesh: &mut WorkMesh<'_>, edge: f32, jitter: f32, rng: &mut ChaCha
     let quality = if jitter > 0.0 { FAIR_SHAKEN } else { FAIR };
     let settings = Relaxation { step: 0.7, jitter, deviation: DEVIATION * edge, stray: STRAY_COLLAPSE * edge, quality };
     relax::relax(mesh, settings, rng, rest).await;
-    flip::flip_edges(mesh);
-    rest.rest().await;
+    flip::flip_edges(mesh, rest).await;
 }
 
 fn area_of(clean: &CleanSurface) -> f64 {

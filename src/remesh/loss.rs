@@ -3,7 +3,10 @@
 use bevy_math::{DVec3, Vec3};
 
 use super::film::BuiltFilm;
-use crate::surface::{BuildWarning, CleanSurface, twins};
+use crate::{
+    rest::Rest,
+    surface::{BuildWarning, CleanSurface, twins_in_pieces},
+};
 
 /// Change of area above which there is a warning, in percent.
 const AREA: f64 = 3.0;
@@ -44,13 +47,14 @@ pub(super) struct ShapeLoss {
 
 impl ShapeLoss {
     /// Measures the film.
-    pub fn of(clean: &CleanSurface, film: &BuiltFilm) -> Self {
+    pub async fn of(clean: &CleanSurface, film: &BuiltFilm, rest: &mut impl Rest) -> Self {
         let before = Measure::of(&clean.positions, &clean.triangles);
         let after = Measure::of(&film.positions, &film.triangles);
         let percent = |before: f64, after: f64| 100.0 * (after - before) / before.abs().max(f64::MIN_POSITIVE);
         // The volume of a sheet with two sides is nothing but rounding.
         let is_solid = before.volume.abs() > THINNEST * before.area * before.area.sqrt();
-        let is_closed = is_solid && !twins(&clean.triangles).contains(&u32::MAX);
+        rest.rest().await;
+        let is_closed = is_solid && !twins_in_pieces(&clean.triangles, rest).await.contains(&u32::MAX);
         let volume = is_closed.then(|| percent(before.volume, after.volume));
         Self { area: percent(before.area, after.area), volume }
     }

@@ -24,7 +24,6 @@ mod project;
 mod reference;
 mod relax;
 mod resolution;
-mod rest;
 pub mod sample;
 mod seams;
 mod share;
@@ -38,15 +37,17 @@ mod topology;
 mod work_mesh;
 
 pub use film::{BuiltFilm, MAX_FILM_TRIANGLES};
+pub(crate) use fine::fine_sites_in_pieces;
 pub use fine::{FineSites, fine_sites};
 pub use resolution::{DEFAULT_GRAIN_SHARE, DEFAULT_MAX_TRIANGLES, FilmResolution, GRAIN_SHARES};
-pub(crate) use rest::Rest;
 pub use share::{LEAST_TRIANGLES, film_targets, share_triangles};
 pub use target::FilmTarget;
 
-use crate::surface::{BuildError, Surface, clean};
+use crate::{
+    rest::{NoRest, Rest, at_once},
+    surface::{BuildError, Surface, clean_in_pieces},
+};
 use frame::Frame;
-use rest::{NoRest, at_once};
 
 /// Builds the film of a surface: cleans the surface, remeshes it to the target (or keeps its triangles), and finds
 /// the point of the surface at which each corner of the film lies.
@@ -55,9 +56,10 @@ use rest::{NoRest, at_once};
 /// bit.
 ///
 /// # Errors
-/// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km,
-/// [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding, [`BuildError::Resolution`] for a
-/// target out of range, and [`BuildError::TooLarge`] if the film would have more than [`MAX_FILM_TRIANGLES`].
+/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger
+/// than 1,000 km, [`BuildError::FarFromOrigin`] for one whose film would be folded by rounding,
+/// [`BuildError::Resolution`] for a target out of range, and [`BuildError::TooLarge`] if the film would have more than
+/// [`MAX_FILM_TRIANGLES`].
 ///
 /// ```
 /// use bevy_coating::{film::FilmMesh, remesh::{FilmTarget, build_film}, surface::Surface};
@@ -95,7 +97,6 @@ pub(crate) async fn build_film_in_pieces(
     let frame = Frame::of(surface)?;
     let moved = frame.enter(surface);
     let surface = moved.as_ref().unwrap_or(surface);
-    let clean = clean(surface)?;
-    rest.rest().await;
+    let clean = clean_in_pieces(surface, rest).await?;
     frame.leave(isotropic::remesh(surface, &clean, target, seed, rest).await?)
 }

@@ -7,12 +7,17 @@ use bevy_math::Vec3;
 
 use super::features::{CREASE, Features};
 use super::topology::Topology;
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use crate::{
+    film::{FaceId, HalfEdgeId, VertexId},
+    rest::{PIECE, Rest},
+};
 
 /// Radius over which the mean normals of the two sides of a crease are taken, in target edges.
 const WRINKLE_RADIUS: f32 = 1.0;
 /// Largest number of faces of a side of which the mean normal is taken.
 const WRINKLE_FACES: usize = 400;
+/// Number of doubtful edges that make a piece of the work: each has two sides of very many faces.
+const WRINKLES: usize = PIECE / 4;
 /// Length below which a branch that ends in a smooth region is noise, in target edges.
 const SHORTEST_BRANCH: f32 = 1.5;
 /// Length below which connected creases with a free end are noise, in target edges.
@@ -23,10 +28,17 @@ const SHORTEST_RIM: f32 = 1.0;
 const ROUNDS: usize = 4;
 
 /// Makes the doubtful edges that are noise no features.
-pub(super) fn drop_noise(features: &mut Features, topology: &Topology, positions: &[Vec3], target: f32) {
+pub(super) async fn drop_noise(
+    features: &mut Features,
+    topology: &Topology,
+    positions: &[Vec3],
+    target: f32,
+    rest: &mut impl Rest,
+) {
     for _ in 0..ROUNDS {
-        drop_wrinkles(features, topology, positions, target);
+        drop_wrinkles(features, topology, positions, target, rest).await;
         drop_short_branches(features, topology, positions, SHORTEST_BRANCH * target);
+        rest.rest().await;
     }
     drop_short_creases(features, topology, positions, target);
 }
@@ -43,7 +55,13 @@ fn degrees(features: &Features, topology: &Topology) -> Vec<u32> {
 
 /// Drops creases that are sharp only at the scale of a scan's noise: the mean normals of their two sides, taken over
 /// about the length `target`, differ by less than the crease angle. A side does not extend across another feature.
-fn drop_wrinkles(features: &mut Features, topology: &Topology, positions: &[Vec3], target: f32) {
+async fn drop_wrinkles(
+    features: &mut Features,
+    topology: &Topology,
+    positions: &[Vec3],
+    target: f32,
+    rest: &mut impl Rest,
+) {
     let radius = WRINKLE_RADIUS * target;
     let mut side = Vec::new();
     let mut stamps = vec![0_u32; topology.face_slots()];
@@ -74,13 +92,14 @@ fn drop_wrinkles(features: &mut Features, topology: &Topology, positions: &[Vec3
         }
         normal.normalize_or_zero()
     };
-    let wrinkles: Vec<HalfEdgeId> = topology
-        .edges()
-        .filter(|&h| features.is_doubtful(h))
-        .filter(|&h| {
+    let doubtful: Vec<HalfEdgeId> = topology.edges().filter(|&h| features.is_doubtful(h)).collect();
+    let mut wrinkles = Vec::new();
+    for piece in doubtful.chunks(WRINKLES) {
+        wrinkles.extend(piece.iter().copied().filter(|&h| {
             topology.twin(h).is_some_and(|t| normal_of_side(features, h).dot(normal_of_side(features, t)) > CREASE)
-        })
-        .collect();
+        }));
+        rest.rest().await;
+    }
     for h in wrinkles {
         features.free(topology, h);
     }

@@ -6,10 +6,15 @@ use super::collapse::{CollapseLimits, try_collapse};
 use super::flip::flip_closely;
 use super::project::project;
 use super::work_mesh::{SurfacePoint, WorkMesh, quality};
-use crate::film::{FaceId, VertexId};
+use crate::{
+    film::{FaceId, VertexId},
+    rest::{PIECE, Rest},
+};
 
 /// Quality below which a face is repaired: its least angle is below about 30 degrees.
 const THIN: f32 = 0.7;
+/// Number of thin faces that make a piece of the work: each is tried in very many ways.
+const THIN_FACES: usize = PIECE / 8;
 /// Lengths of the trial steps, as shares of the target edge.
 const STEPS: [f32; 3] = [0.2, 0.07, 0.025];
 /// Directions of the trial steps: six around a circle.
@@ -18,8 +23,11 @@ const DIRECTIONS: [(f32, f32); 6] =
 
 /// Improves thin faces, first by flips and collapses, then by moving their vertices so that the worst face around each
 /// is as good as possible.
-pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
-    for f in thin_faces(mesh) {
+pub(super) async fn polish(mesh: &mut WorkMesh<'_>, limits: CollapseLimits, edge: f32, rest: &mut impl Rest) {
+    for (i, f) in thin_faces(mesh).into_iter().enumerate() {
+        if i.is_multiple_of(THIN_FACES) {
+            rest.rest().await;
+        }
         if !mesh.topology.is_live(f) || quality_of(mesh, f) >= THIN {
             continue;
         }
@@ -35,7 +43,10 @@ pub(super) fn polish(mesh: &mut WorkMesh, limits: CollapseLimits, edge: f32) {
         }
     }
     let mut moved = vec![false; mesh.topology.vertex_slots()];
-    for f in thin_faces(mesh) {
+    for (i, f) in thin_faces(mesh).into_iter().enumerate() {
+        if i.is_multiple_of(THIN_FACES) {
+            rest.rest().await;
+        }
         for v in mesh.topology.corners(f) {
             if !std::mem::replace(&mut moved[v.index()], true) {
                 improve(mesh, v, edge, limits.stray);

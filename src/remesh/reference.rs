@@ -10,6 +10,7 @@ use super::sizing::Sizing;
 use super::topology::Topology;
 use crate::{
     film::{FaceId, HalfEdgeId},
+    rest::Rest,
     surface::{CleanSurface, Surface},
 };
 
@@ -33,9 +34,9 @@ pub(super) struct Reference<'a> {
 
 impl<'a> Reference<'a> {
     /// Prepares the surface for a film of this scale.
-    pub fn new(surface: &Surface, clean: &'a CleanSurface, scale: Scale) -> Self {
+    pub async fn new(surface: &Surface, clean: &'a CleanSurface, scale: Scale, rest: &mut impl Rest) -> Self {
         let positions = &clean.positions;
-        let topology = Topology::new(&clean.triangles, positions.len());
+        let topology = Topology::new(&clean.triangles, positions.len(), rest).await;
         let normals: Vec<Vec3> = topology
             .faces()
             .map(|f| {
@@ -43,13 +44,16 @@ impl<'a> Reference<'a> {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let mut features = Features::find(surface, clean, &topology, &normals, scale);
+        rest.rest().await;
+        let mut features = Features::find(surface, clean, &topology, &normals, scale, rest).await;
         let target = scale.target;
-        drop_noise(&mut features, &topology, positions, target);
+        drop_noise(&mut features, &topology, positions, target, rest).await;
         let mut fixed = features.rigid_vertices(&topology);
-        let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed);
+        let (chains, chain_of) = Chains::new(&topology, positions, &features, target, &mut fixed, rest).await;
         let patches = features.patches(&topology);
+        rest.rest().await;
         let sizing = Sizing::new(&topology, positions, &patches, &chain_of, &chains, scale);
+        rest.rest().await;
         let triangles = topology.faces().map(|f| topology.corners(f).map(|v| positions[v.index()])).collect();
         Self { topology, positions, triangles, chain_of, chains, fixed, patches, sizing, closeness: 1.0 }
     }

@@ -7,9 +7,11 @@ use rand_chacha::ChaCha8Rng;
 
 use super::collapse::chain_neighbours;
 use super::project::project;
-use super::rest::{PIECE, Rest};
 use super::work_mesh::{SurfacePoint, WorkMesh};
-use crate::film::VertexId;
+use crate::{
+    film::VertexId,
+    rest::{PIECE, Rest},
+};
 
 /// Parameters of one relaxation.
 #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 use super::attributes::Attributes;
 use crate::{
     film::{FaceId, HalfEdgeId},
+    rest::Rest,
     surface::{CleanSurface, Surface},
 };
 
@@ -14,8 +15,8 @@ pub(super) struct Seams<'a> {
 }
 
 impl<'a> Seams<'a> {
-    pub fn new(surface: &'a Surface, clean: &'a CleanSurface) -> Self {
-        Self { surface, clean, attributes: Attributes::new(surface, clean) }
+    pub async fn new(surface: &'a Surface, clean: &'a CleanSurface, rest: &mut impl Rest) -> Self {
+        Self { surface, clean, attributes: Attributes::new(surface, clean, rest).await }
     }
 
     /// Returns whether the two faces at an edge differ in slot, winding or an attribute. Where the film must be

@@ -4,12 +4,18 @@ use super::film::{BuiltFilm, MAX_FILM_TRIANGLES};
 use super::project::Foot;
 use super::work_mesh::WorkMesh;
 use crate::{
-    film::VertexId,
+    film::{FaceId, VertexId},
+    rest::{PIECE, Rest, pieces},
     surface::{BuildError, CleanSurface, Surface, SurfaceSite},
 };
 
 /// Numbers the live vertices and faces in order and finds the site of every corner.
-pub(super) fn finish(mesh: &WorkMesh, surface: &Surface, clean: &CleanSurface) -> BuiltFilm {
+pub(super) async fn finish(
+    mesh: &WorkMesh<'_>,
+    surface: &Surface,
+    clean: &CleanSurface,
+    rest: &mut impl Rest,
+) -> BuiltFilm {
     let mut film = BuiltFilm { warnings: clean.warnings.clone(), ..BuiltFilm::default() };
     let mut numbers = vec![VertexId::NONE; mesh.topology.vertex_slots()];
     let mut number = |film: &mut BuiltFilm, v: VertexId| {
@@ -19,16 +25,19 @@ pub(super) fn finish(mesh: &WorkMesh, surface: &Surface, clean: &CleanSurface) -
         }
         numbers[v.index()].0
     };
-    for f in mesh.topology.faces() {
-        let triangle = mesh.topology.corners(f).map(|v| number(&mut film, v));
-        film.triangles.push(triangle);
-        let feet = f.half_edges().map(|h| mesh.corner(h));
-        film.sites.extend(feet.iter().map(|foot| site(clean, foot)));
-        // Slots and turned winding are the same all over a patch, so any corner will do.
-        let triangle = feet[0].triangle.index();
-        let source = clean.source[triangle];
-        film.slots.push(surface.slots.get(source as usize).copied().unwrap_or_default());
-        film.flipped.push(clean.flipped[triangle]);
+    for piece in pieces(mesh.topology.face_slots(), 4 * PIECE) {
+        for f in piece.map(FaceId::new).filter(|&f| mesh.topology.is_live(f)) {
+            let triangle = mesh.topology.corners(f).map(|v| number(&mut film, v));
+            film.triangles.push(triangle);
+            let feet = f.half_edges().map(|h| mesh.corner(h));
+            film.sites.extend(feet.iter().map(|foot| site(clean, foot)));
+            // Slots and turned winding are the same all over a patch, so any corner will do.
+            let triangle = feet[0].triangle.index();
+            let source = clean.source[triangle];
+            film.slots.push(surface.slots.get(source as usize).copied().unwrap_or_default());
+            film.flipped.push(clean.flipped[triangle]);
+        }
+        rest.rest().await;
     }
     film
 }

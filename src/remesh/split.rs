@@ -1,5 +1,7 @@
 //! Splits edges.
 
+use std::{cmp::Reverse, ops::Range};
+
 use bevy_math::Vec3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -7,7 +9,10 @@ use rand_chacha::ChaCha8Rng;
 use super::flip::flip_edges;
 use super::project::project;
 use super::work_mesh::{SurfacePoint, WorkMesh, count_edit};
-use crate::film::{HalfEdgeId, VertexId};
+use crate::{
+    film::{HalfEdgeId, VertexId},
+    rest::{LIGHT_PIECE, PIECE, Rest, pieces, sort_by_number},
+};
 
 /// Least share of a face's area that each half must have after a split.
 const LEAST_HALF: f32 = 0.1;
@@ -32,45 +37,69 @@ pub(super) struct SplitLimits {
 /// Splits edges that are too long, the longest first, until none is left. Flips between the rounds keep needles from
 /// being split into more and more of them. Then splits edges that cut through a bend of
 /// the surface, once.
-pub(super) fn split_edges(mesh: &mut WorkMesh, limits: SplitLimits, rng: &mut ChaCha8Rng) {
+pub(super) async fn split_edges(
+    mesh: &mut WorkMesh<'_>,
+    limits: SplitLimits,
+    rng: &mut ChaCha8Rng,
+    rest: &mut impl Rest,
+) {
     // Each round about halves the longest edges, so 40 rounds are more than any mesh needs.
     for _ in 0..40 {
-        let long =
-            mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > limits.longest).collect();
-        if !split_all(mesh, long, limits.longest, limits.most_faces, rng) {
+        let long = longer_than(mesh, limits.longest, 0..mesh.topology.half_edge_slots());
+        if !split_all(mesh, long, limits.longest, limits.most_faces, rng, rest).await {
             break;
         }
-        flip_edges(mesh);
+        flip_edges(mesh, rest).await;
     }
     if limits.stray == f32::MAX {
         return;
     }
-    let straying = mesh
-        .topology
-        .edges()
-        .map(|h| (mesh.sized_length(h), h))
-        .filter(|&(l, h)| l > limits.shortest && mesh.stray(h) > limits.stray)
-        .collect();
-    split_all(mesh, straying, limits.shortest, limits.most_faces, rng);
+    let mut straying = Vec::new();
+    for piece in pieces(mesh.topology.half_edge_slots(), LIGHT_PIECE) {
+        let long = longer_than(mesh, limits.shortest, piece);
+        straying.extend(long.into_iter().filter(|edge| mesh.stray(edge.1) > limits.stray));
+        rest.rest().await;
+    }
+    split_all(mesh, straying, limits.shortest, limits.most_faces, rng, rest).await;
 }
 
 /// Splits edges longer than `least`, the longest first, until there are `count` faces.
-pub(super) fn split_longest_edges(mesh: &mut WorkMesh, least: f32, count: usize, rng: &mut ChaCha8Rng) {
-    let long = mesh.topology.edges().map(|h| (mesh.sized_length(h), h)).filter(|&(l, _)| l > least).collect();
-    split_all(mesh, long, least, count, rng);
+pub(super) async fn split_longest_edges(
+    mesh: &mut WorkMesh<'_>,
+    least: f32,
+    count: usize,
+    rng: &mut ChaCha8Rng,
+    rest: &mut impl Rest,
+) {
+    let long = longer_than(mesh, least, 0..mesh.topology.half_edge_slots());
+    split_all(mesh, long, least, count, rng, rest).await;
+}
+
+/// Edge after its length, the longest first. The bits of lengths are in the order of lengths, as none is negative.
+type Long = (Reverse<u32>, HalfEdgeId);
+
+/// Returns those of the edges that are longer than `least`.
+fn longer_than(mesh: &WorkMesh, least: f32, half_edges: Range<usize>) -> Vec<Long> {
+    let edges = mesh.topology.edges_in(half_edges).map(|h| (mesh.sized_length(h), h));
+    edges.filter(|&(length, _)| length > least).map(|(length, h)| (Reverse(length.to_bits()), h)).collect()
 }
 
 /// Splits the edges that are still longer than `least` when their turn comes. Returns whether any edge was split.
-fn split_all(
-    mesh: &mut WorkMesh,
-    mut edges: Vec<(f32, HalfEdgeId)>,
+async fn split_all(
+    mesh: &mut WorkMesh<'_>,
+    edges: Vec<Long>,
     least: f32,
     most_faces: usize,
     rng: &mut ChaCha8Rng,
+    rest: &mut impl Rest,
 ) -> bool {
-    edges.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    rest.rest().await;
+    let edges = sort_by_number(edges, |edge| !edge.0.0, rest).await;
     let mut any = false;
-    for (_, h) in edges {
+    for (i, (_, h)) in edges.into_iter().enumerate() {
+        if i.is_multiple_of(PIECE) {
+            rest.rest().await;
+        }
         if mesh.topology.live_faces() >= most_faces {
             break;
         }

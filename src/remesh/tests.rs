@@ -9,10 +9,11 @@ use bevy_math::{Vec2, Vec3, Vec4, ops};
 use proptest::prelude::*;
 
 use super::topology::Topology;
-use super::{BuiltFilm, FilmTarget, Rest, build_film, build_film_in_pieces, clean, rest::at_once};
+use super::{BuiltFilm, FilmTarget, build_film, build_film_in_pieces};
 use crate::{
     film::{FaceId, VertexId},
-    surface::{BuildError, BuildWarning, Surface},
+    rest::{NoRest, Rest, at_once},
+    surface::{BuildError, BuildWarning, Surface, clean},
 };
 
 /// Properties that remeshing must not change.
@@ -23,7 +24,7 @@ struct Shape {
 }
 
 fn shape_of(triangles: &[[u32; 3]], vertices: usize) -> Shape {
-    let topology = Topology::new(triangles, vertices);
+    let topology = at_once(Topology::new(triangles, vertices, &mut NoRest));
     topology.check();
     let edges = topology.edges().count();
     let mut following = BTreeMap::new();
@@ -229,7 +230,7 @@ fn low_poly_faces_lie_on_single_facets() {
 
 /// Total length of the film's border and of its slot borders.
 fn feature_lengths(positions: &[Vec3], triangles: &[[u32; 3]], slots: &[u32]) -> [f32; 2] {
-    let topology = Topology::new(triangles, positions.len());
+    let topology = at_once(Topology::new(triangles, positions.len(), &mut NoRest));
     let slot = |f: FaceId| slots.get(f.index()).copied().unwrap_or_default();
     let mut lengths = [0.0; 2];
     for h in topology.edges() {

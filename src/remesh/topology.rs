@@ -4,7 +4,12 @@
 //! has no outgoing half-edge; both are used again. The outgoing half-edge of a border vertex is the one without a twin,
 //! so that a turn counter-clockwise from it meets every face around the vertex.
 
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use std::ops::Range;
+
+use crate::{
+    film::{FaceId, HalfEdgeId, VertexId},
+    rest::{LIGHT_PIECE, Rest, pieces, sort_by_number},
+};
 
 /// Connectivity of a triangle mesh whose edges can be split, collapsed and flipped.
 #[derive(Clone, Debug, Default)]
@@ -18,18 +23,19 @@ pub(super) struct Topology {
 
 impl Topology {
     /// Joins triangles along the edges that exactly two of them run along in opposite directions.
-    pub fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
+    pub async fn new(triangles: &[[u32; 3]], vertices: usize, rest: &mut impl Rest) -> Self {
         let origins: Vec<VertexId> = triangles.iter().flatten().map(|&v| VertexId(v)).collect();
         let mut topology = Self { twins: vec![HalfEdgeId::NONE; origins.len()], origins, ..Self::default() };
         topology.outgoing = vec![HalfEdgeId::NONE; vertices];
-        let mut edges: Vec<(VertexId, VertexId, HalfEdgeId)> = (0..topology.origins.len())
+        let edges: Vec<(VertexId, VertexId, HalfEdgeId)> = (0..topology.origins.len())
             .map(HalfEdgeId::new)
             .map(|h| {
                 let (a, b) = (topology.origin(h), topology.target(h));
                 (a.min(b), a.max(b), h)
             })
             .collect();
-        edges.sort_unstable();
+        rest.rest().await;
+        let edges = sort_by_number(edges, |edge| edge.0.0, rest).await;
         for same in edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
             if let &[(.., h), (.., t)] = same
                 && topology.origin(h) == topology.target(t)
@@ -37,11 +43,15 @@ impl Topology {
                 topology.link(h, t);
             }
         }
-        for h in (0..topology.origins.len()).map(HalfEdgeId::new) {
-            let v = topology.origin(h);
-            if topology.outgoing[v.index()] == HalfEdgeId::NONE {
-                topology.anchor(v, h);
+        rest.rest().await;
+        for piece in pieces(topology.origins.len(), LIGHT_PIECE) {
+            for h in piece.map(HalfEdgeId::new) {
+                let v = topology.origin(h);
+                if topology.outgoing[v.index()] == HalfEdgeId::NONE {
+                    topology.anchor(v, h);
+                }
             }
+            rest.rest().await;
         }
         topology
     }
@@ -88,6 +98,11 @@ impl Topology {
         self.origins.len() / 3
     }
 
+    /// Returns the number of half-edge ids in use or removed.
+    pub fn half_edge_slots(&self) -> usize {
+        self.origins.len()
+    }
+
     /// Returns the number of vertex ids in use or removed.
     pub fn vertex_slots(&self) -> usize {
         self.outgoing.len()
@@ -99,7 +114,12 @@ impl Topology {
 
     /// Iterates over all edges, each given by the lower of its half-edges, in index order.
     pub fn edges(&self) -> impl Iterator<Item = HalfEdgeId> + '_ {
-        (0..self.origins.len())
+        self.edges_in(0..self.origins.len())
+    }
+
+    /// Iterates over the edges whose lower half-edges are among these.
+    pub fn edges_in(&self, half_edges: Range<usize>) -> impl Iterator<Item = HalfEdgeId> + '_ {
+        half_edges
             .map(HalfEdgeId::new)
             .filter(|&h| self.origin(h) != VertexId::NONE && self.twin(h).is_none_or(|t| h < t))
     }

@@ -199,9 +199,12 @@ fn begin(shelter: &mut FilmShelter, mut order: CastOrder, mesh: &FilmMesh, spher
     let (key, surface) = (order.key.clone(), shelter.surface.clone());
     let mesh = surface.is_none().then(|| mesh.clone());
     let task = AsyncComputeTaskPool::get().spawn(async move {
-        let _turn = Turn::begin().await;
-        let surface = surface.unwrap_or_else(|| Arc::new(ExposedSurface::new(&mesh.unwrap_or_default())));
-        Cast { exposure: order.cast(&surface), surface }
+        let mut turn = Turn::begin().await;
+        let surface = match surface {
+            Some(surface) => surface,
+            None => Arc::new(ExposedSurface::new_in_pieces(&mesh.unwrap_or_default(), &mut turn).await),
+        };
+        Cast { exposure: order.cast(&surface, &mut turn).await, surface }
     });
     shelter.under_way = Some((task, key));
     (shelter.settled, shelter.overdue, shelter.waited) = (true, false, 0);

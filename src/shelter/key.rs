@@ -8,9 +8,12 @@ use bevy::{
 };
 
 use super::{ball::Ball, pieces::ShelterPieces};
-use crate::stain::{
-    Environment, Exposure,
-    exposure::{Blocker, ExposedSurface},
+use crate::{
+    rest::Rest,
+    stain::{
+        Environment, Exposure,
+        exposure::{Blocker, ExposedSurface},
+    },
 };
 
 /// Cosine of 1 degree, the angle by which rain and sun may turn before rays are cast again.
@@ -147,9 +150,9 @@ impl CastOrder {
         looked_at
     }
 
-    /// Casts the rays and returns the exposure of each vertex.
-    pub fn cast(&self, surface: &ExposedSurface) -> Exposure {
+    /// Casts the rays, with rests in between, and returns the exposure of each vertex.
+    pub async fn cast(&self, surface: &ExposedSurface, rest: &mut impl Rest) -> Exposure {
         let [rain, sun] = self.key.falls;
-        surface.cast(&self.blockers, rain, sun)
+        surface.cast_in_pieces(&self.blockers, rain, sun, rest).await
     }
 }

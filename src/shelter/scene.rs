@@ -312,9 +312,9 @@ fn begin_tree(piece: &Piece, assets: &Assets<Mesh>, server: Option<&AssetServer>
         Ok((positions, triangles)) => {
             let count = triangles.len();
             let task = AsyncComputeTaskPool::get().spawn(async move {
-                let _turn = Turn::begin().await;
+                let mut turn = Turn::begin().await;
                 let corner = |v: u32| positions.get(v as usize).map_or(Vec3::NAN, |&p| Vec3::from_array(p));
-                TriangleTree::new(triangles.iter().map(|t| t.map(corner)))
+                TriangleTree::new_in_pieces(triangles.iter().map(|t| t.map(corner)), &mut turn).await
             });
             Some((Tree::Growing(task), count))
         }

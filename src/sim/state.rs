@@ -11,6 +11,7 @@ use crate::{
     film::{FilmChanges, FilmMesh},
     fracture::FilmForces,
     remesh::BuiltFilm,
+    rest::{NoRest, Rest, at_once},
     settings::CoatingSettings,
     stain::{Environment, StainFields},
 };
@@ -61,8 +62,19 @@ impl FilmState {
     /// # Ok::<(), bevy_coating::surface::BuildError>(())
     /// ```
     pub fn new(built: &BuiltFilm, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Option<Self> {
-        let mesh = FilmMesh::new(built.positions.clone(), &built.triangles).ok()?;
-        Some(Self::from_mesh(mesh, settings, seed, steps_per_age))
+        at_once(Self::new_in_pieces(built, settings, seed, steps_per_age, &mut NoRest))
+    }
+
+    /// Does what [`new`](Self::new) does, with rests between its pieces.
+    pub(crate) async fn new_in_pieces(
+        built: &BuiltFilm,
+        settings: &CoatingSettings,
+        seed: u64,
+        steps_per_age: u32,
+        rest: &mut impl Rest,
+    ) -> Option<Self> {
+        let mesh = FilmMesh::new_in_pieces(built.positions.clone(), &built.triangles, rest).await.ok()?;
+        Some(Self::from_mesh_in_pieces(mesh, settings, seed, steps_per_age, rest).await)
     }
 
     /// Creates a fresh film on `mesh`, with steps of 1 / `steps_per_age` (0 counts as 1). `seed` draws adhesion and
@@ -78,14 +90,24 @@ impl FilmState {
     /// # Ok::<(), bevy_coating::film::TopologyError>(())
     /// ```
     pub fn from_mesh(mesh: FilmMesh, settings: &CoatingSettings, seed: u64, steps_per_age: u32) -> Self {
-        Self {
-            stains: StainFields::new(&mesh),
-            forces: FilmForces::new(&mesh, settings, seed),
-            constraints: FilmConstraints::new(&mesh),
-            clock: FilmClock::new(steps_per_age),
-            mesh,
-            ..Self::default()
-        }
+        at_once(Self::from_mesh_in_pieces(mesh, settings, seed, steps_per_age, &mut NoRest))
+    }
+
+    async fn from_mesh_in_pieces(
+        mesh: FilmMesh,
+        settings: &CoatingSettings,
+        seed: u64,
+        steps_per_age: u32,
+        rest: &mut impl Rest,
+    ) -> Self {
+        let stains = StainFields::new(&mesh);
+        rest.rest().await;
+        let forces = FilmForces::new(&mesh, settings, seed);
+        rest.rest().await;
+        let constraints = FilmConstraints::new(&mesh);
+        rest.rest().await;
+        let clock = FilmClock::new(steps_per_age);
+        Self { mesh, forces, constraints, stains, clock, ..Self::default() }
     }
 
     /// Takes one step: runs every [stage](super::stage) once, in order.

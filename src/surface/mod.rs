@@ -14,6 +14,7 @@ mod prop_surface;
 mod warning;
 
 pub use clean::{CleanSurface, clean, twins};
+pub(crate) use clean::{clean_in_pieces, twins_in_pieces};
 pub use error::BuildError;
 pub use prop_surface::{Surface, SurfaceSite};
 pub use warning::BuildWarning;

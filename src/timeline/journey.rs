@@ -11,7 +11,7 @@ use super::film_history::FilmHistory;
 use crate::{
     api::turn::Turn,
     history::{Conditions, History, Past},
-    remesh::Rest,
+    rest::Rest,
     settings::CoatingSettings,
     sim::FilmState,
     snapshot::{Snapshot, SnapshotError},

@@ -12,7 +12,7 @@ use crate::{
 
 /// Rooms (files and folders of `src`) from the lowest upwards. Those of one rung may import from each other, one way.
 const LADDER: [&[&str]; 15] = [
-    &["coding", "files"],
+    &["coding", "files", "rest"],
     &["settings", "film"],
     &["surface", "remesh"],
     &["fracture", "deform", "stain"],
@@ -30,9 +30,10 @@ const LADDER: [&[&str]; 15] = [
 ];
 
 /// Rooms that do without the engine.
-const CORE: [&str; 19] = [
+const CORE: [&str; 20] = [
     "coding",
     "files",
+    "rest",
     "settings",
     "film",
     "surface",

@@ -14,7 +14,7 @@ use super::{
     seen::Seen,
     wedges::{RestWedges, Wedges},
 };
-use crate::{film::FilmMesh, fracture::FilmForces};
+use crate::{film::FilmMesh, fracture::FilmForces, rest::Rest};
 use backs::Backs;
 use fronts::Fronts;
 use metal::Metal;
@@ -42,12 +42,22 @@ impl CoarseSurface {
     }
 
     /// Brings the parts up to date with what `seen` finds different about the film.
-    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, seen: &Seen) {
+    pub async fn update(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        face_slots: &FaceSlots,
+        seen: &Seen,
+        rest: &mut impl Rest,
+    ) {
         let Self { attributes, wedges, fronts, backs, metal } = self;
         let edge = mesh.geometry.mean_edge;
         wedges.follow(&mesh.topology, face_slots, &seen.differences);
+        rest.rest().await;
         fronts.update(mesh, face_slots, attributes, wedges, seen);
+        rest.rest().await;
         backs.update(mesh, forces, face_slots, wedges, seen, fronts, edge * FILM_THICKNESS);
+        rest.rest().await;
         metal.update(mesh, forces, face_slots, wedges.at_rest(), attributes, seen, edge * METAL_DEPTH);
         let changes = fronts.changes.iter_mut().chain(&mut backs.changes).chain(&mut metal.changes);
         changes.for_each(PartChanges::finish);

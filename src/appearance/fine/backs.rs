@@ -3,6 +3,7 @@
 use bevy_math::Vec3A;
 
 use super::{
+    FINE_PIECE,
     base::Base,
     fronts::FineFronts,
     rims::Rims,
@@ -14,6 +15,7 @@ use crate::{
     appearance::{face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
     film::{FaceId, HalfEdgeId, Topology},
     fracture::FilmForces,
+    rest::{Rest, pieces},
 };
 
 /// Entry of a wedge without back.
@@ -62,7 +64,14 @@ impl FineBacks {
     }
 
     /// Adds and removes backs and rims, as is different about the film. The skin of `fronts` must be up to date.
-    pub(super) fn renew(&mut self, view: &View, forces: &FilmForces, seen: &Seen, fronts: &FineFronts) {
+    pub(super) async fn renew(
+        &mut self,
+        view: &View<'_>,
+        forces: &FilmForces,
+        seen: &Seen,
+        fronts: &FineFronts,
+        rest: &mut impl Rest,
+    ) {
         let (topology, differences) = (view.topology(), &seen.differences);
         self.changes.iter_mut().for_each(|changes| changes.begin(differences.whole));
         self.touched.clear();
@@ -87,26 +96,36 @@ impl FineBacks {
         }
         let touched = std::mem::take(&mut self.touched);
         // Vertices that are moved together are together, so far as faces of their own need them.
-        for &f in &touched {
-            self.show(view, forces, f);
-            f.half_edges().into_iter().for_each(|h| self.renew_edge(view, forces, fronts, h));
+        for piece in touched.chunks(FINE_PIECE) {
+            for &f in piece {
+                self.show(view, forces, f);
+                f.half_edges().into_iter().for_each(|h| self.renew_edge(view, forces, fronts, h));
+            }
+            rest.rest().await;
         }
-        for twin in touched.iter().flat_map(|f| f.half_edges()).filter_map(|h| topology.rest_twin(h)) {
-            self.renew_edge(view, forces, fronts, twin);
+        for piece in touched.chunks(FINE_PIECE) {
+            for twin in piece.iter().flat_map(|f| f.half_edges()).filter_map(|h| topology.rest_twin(h)) {
+                self.renew_edge(view, forces, fronts, twin);
+            }
+            rest.rest().await;
         }
-        for i in 0..self.new_faces.len() {
-            self.lead(view, fronts, self.new_faces[i]);
+        for piece in pieces(self.new_faces.len(), FINE_PIECE) {
+            piece.for_each(|i| self.lead(view, fronts, self.new_faces[i]));
+            rest.rest().await;
         }
         for &f in fronts.skin.led.iter().filter(|_| !differences.whole) {
             self.lead(view, fronts, f);
         }
-        for h in touched.iter().flat_map(|f| f.half_edges()) {
-            let has_back = self.runs.has(h.face());
-            let slot = view.face_slots.slot(h.face());
-            let (part, changes) = (&mut self.parts[slot], &mut self.changes[slot]);
-            if self.rims.show(view, forces, has_back, h, part, changes) {
-                self.new_rims.push(h);
+        for piece in touched.chunks(FINE_PIECE) {
+            for h in piece.iter().flat_map(|f| f.half_edges()) {
+                let has_back = self.runs.has(h.face());
+                let slot = view.face_slots.slot(h.face());
+                let (part, changes) = (&mut self.parts[slot], &mut self.changes[slot]);
+                if self.rims.show(view, forces, has_back, h, part, changes) {
+                    self.new_rims.push(h);
+                }
             }
+            rest.rest().await;
         }
         self.touched = touched;
     }
@@ -209,7 +228,7 @@ impl FineBacks {
 
     /// Copies what lies at the fronts of new vertices, and of those whose fronts stand for another place, and puts them
     /// in their places. `fronts` must be up to date.
-    pub(super) fn finish(&mut self, view: &View, seen: &Seen, fronts: &FineFronts) {
+    pub(super) async fn finish(&mut self, view: &View<'_>, seen: &Seen, fronts: &FineFronts, rest: &mut impl Rest) {
         for (slot, wedge) in std::mem::take(&mut self.new_corners) {
             if let Some(vertex) = self.corner(slot, wedge) {
                 let from = fronts.skin.wedge(slot, wedge);
@@ -220,26 +239,41 @@ impl FineBacks {
         // With a whole new front all backs are new.
         let all = seen.differences.whole;
         let (new_edges, new_faces) = (std::mem::take(&mut self.new_edges), std::mem::take(&mut self.new_faces));
-        for &h in new_edges.iter().chain(fronts.renewed_edges.iter().filter(|_| !all)) {
-            if let (Some(to), Some(from)) = (self.edge(h), fronts.skin.edge(h)) {
-                self.copy(fronts, view.face_slots.slot(h.face()), to, from);
-                self.follow_edge(view, fronts, h);
-            }
-        }
-        for &f in new_faces.iter().chain(fronts.renewed_faces.iter().filter(|_| !all)) {
-            if let (Some(to), Some(from)) = (self.inside(f), fronts.skin.inside(f)) {
-                self.copy(fronts, view.face_slots.slot(f), to, from);
-                self.follow_inside(view, fronts, f);
-            }
-        }
         let new_rims = std::mem::take(&mut self.new_rims);
-        for &h in new_rims.iter().chain(fronts.renewed_edges.iter().filter(|_| !all)) {
-            let slot = view.face_slots.slot(h.face());
-            let (part, changes) = (&mut self.parts[slot], &mut self.changes[slot]);
-            self.rims.copy(view, fronts, h, part, changes);
-            self.follow_rim(view, fronts, h);
+        let renewed_edges = if all { &[] } else { fronts.renewed_edges.as_slice() };
+        let renewed_faces = if all { &[] } else { fronts.renewed_faces.as_slice() };
+        for piece in new_edges.chunks(FINE_PIECE).chain(renewed_edges.chunks(FINE_PIECE)) {
+            piece.iter().for_each(|&h| self.finish_edge(view, fronts, h));
+            rest.rest().await;
+        }
+        for piece in new_faces.chunks(FINE_PIECE).chain(renewed_faces.chunks(FINE_PIECE)) {
+            piece.iter().for_each(|&f| self.finish_inside(view, fronts, f));
+            rest.rest().await;
+        }
+        for piece in new_rims.chunks(FINE_PIECE).chain(renewed_edges.chunks(FINE_PIECE)) {
+            for &h in piece {
+                let slot = view.face_slots.slot(h.face());
+                let (part, changes) = (&mut self.parts[slot], &mut self.changes[slot]);
+                self.rims.copy(view, fronts, h, part, changes);
+                self.follow_rim(view, fronts, h);
+            }
+            rest.rest().await;
         }
         (self.new_edges, self.new_faces, self.new_rims) = (new_edges, new_faces, new_rims);
+    }
+
+    fn finish_edge(&mut self, view: &View, fronts: &FineFronts, h: HalfEdgeId) {
+        if let (Some(to), Some(from)) = (self.edge(h), fronts.skin.edge(h)) {
+            self.copy(fronts, view.face_slots.slot(h.face()), to, from);
+            self.follow_edge(view, fronts, h);
+        }
+    }
+
+    fn finish_inside(&mut self, view: &View, fronts: &FineFronts, f: FaceId) {
+        if let (Some(to), Some(from)) = (self.inside(f), fronts.skin.inside(f)) {
+            self.copy(fronts, view.face_slots.slot(f), to, from);
+            self.follow_inside(view, fronts, f);
+        }
     }
 
     /// Forgets what was new in the last update, and the memory for it.

@@ -7,14 +7,15 @@ use bevy_math::{Vec2, Vec3, Vec4, VectorSpace};
 use super::layout::{Layout, Role};
 use crate::{
     appearance::{
-        corners::{CornerAttributes, sample, sample_at},
+        corners::{CornerAttributes, sample_at, sample_in_pieces},
         face_slots::FaceSlots,
         part::{MeshPart, set},
         turn::unit,
         wedges::{RestWedges, are_same},
     },
     film::{FaceId, FilmMesh, HalfEdgeId, Topology},
-    remesh::{BuiltFilm, FineSites, fine_sites},
+    remesh::{BuiltFilm, FineSites, fine_sites_in_pieces},
+    rest::{LIGHT_PIECE, Rest, pieces},
     surface::{BuildError, Surface, SurfaceSite},
 };
 
@@ -56,8 +57,8 @@ impl Base {
     /// Samples `surface` at the points of the grids of `level`.
     ///
     /// # Errors
-    /// The errors of [`fine_sites`].
-    pub fn sample(
+    /// The errors of [`fine_sites`](crate::remesh::fine_sites).
+    pub async fn sample(
         built: &BuiltFilm,
         surface: &Surface,
         mesh: &FilmMesh,
@@ -65,50 +66,58 @@ impl Base {
         wedges: Arc<RestWedges>,
         face_slots: &FaceSlots,
         level: u32,
+        rest: &mut impl Rest,
     ) -> Result<Self, BuildError> {
         let layout = Layout::new(level);
-        let mut sites = fine_sites(surface, built, &layout.grid)?;
+        let mut sites = fine_sites_in_pieces(surface, built, &layout.grid, rest).await?;
         // As many as there are faces, whatever came in.
         let count = layout.roles.len() * mesh.topology.face_count();
         sites.positions.resize(count, Vec3::ZERO);
         sites.sites.resize(count, SurfaceSite { triangle: 0, weights: Vec3::X });
-        let joined = joined(&layout, &sites, surface, &mesh.topology, &wedges, face_slots);
+        rest.rest().await;
+        let joined = joined(&layout, &sites, surface, &mesh.topology, &wedges, face_slots, rest).await;
         let mut base = Self::numbered(layout, mesh, wedges, joined);
+        rest.rest().await;
         let points = base.layout.roles.len();
-        let of: Vec<usize> = base.firsts(mesh, |f, i| f.index() * points + i);
+        let of: Vec<usize> = base.firsts(mesh, |f, i| f.index() * points + i, rest).await;
         base.positions = of.iter().map(|&i| sites.positions[i]).collect();
         let own: Vec<SurfaceSite> = of.iter().map(|&i| sites.sites[i]).collect();
-        let mut normals = sample(&surface.normals, &own);
-        normals.resize(of.len(), Vec3::ZERO);
-        for (normal, &i) in normals.iter_mut().zip(&of) {
-            *normal = unit(*normal);
-            // Where the prop has no normals they are those at the film's corners, interpolated.
-            if *normal == Vec3::ZERO {
-                let b = base.layout.grid.points()[i % points];
-                let of_corner = |k: usize| corners.normals.get(3 * (i / points) + k).copied().unwrap_or(Vec3::Z);
-                let mean = of_corner(0) * b.x + of_corner(1) * b.y + of_corner(2) * b.z;
-                *normal = mean.normalize_or(of_corner(0));
+        rest.rest().await;
+        let attributes = &mut base.attributes;
+        attributes.normals = sample_in_pieces(&surface.normals, &own, rest).await;
+        attributes.normals.resize(of.len(), Vec3::ZERO);
+        for (normals, of) in attributes.normals.chunks_mut(LIGHT_PIECE).zip(of.chunks(LIGHT_PIECE)) {
+            for (normal, &i) in normals.iter_mut().zip(of) {
+                *normal = unit(*normal);
+                // Where the prop has no normals they are those at the film's corners, interpolated.
+                if *normal == Vec3::ZERO {
+                    let b = base.layout.grid.points()[i % points];
+                    let of_corner = |k: usize| corners.normals.get(3 * (i / points) + k).copied().unwrap_or(Vec3::Z);
+                    let mean = of_corner(0) * b.x + of_corner(1) * b.y + of_corner(2) * b.z;
+                    *normal = mean.normalize_or(of_corner(0));
+                }
             }
+            rest.rest().await;
         }
-        let mut tangents = sample(&surface.tangents, &own);
-        for t in &mut tangents {
-            *t = t.truncate().normalize_or(Vec3::X).extend(if t.w < 0.0 { -1.0 } else { 1.0 });
+        attributes.tangents = sample_in_pieces(&surface.tangents, &own, rest).await;
+        for tangents in attributes.tangents.chunks_mut(LIGHT_PIECE) {
+            for t in tangents {
+                *t = t.truncate().normalize_or(Vec3::X).extend(if t.w < 0.0 { -1.0 } else { 1.0 });
+            }
+            rest.rest().await;
         }
-        base.attributes = CornerAttributes {
-            normals,
-            uvs: sample(&surface.uvs, &own),
-            uvs_1: sample(&surface.uvs_1, &own),
-            tangents,
-            colors: sample(&surface.colors, &own),
-        };
+        attributes.uvs = sample_in_pieces(&surface.uvs, &own, rest).await;
+        attributes.uvs_1 = sample_in_pieces(&surface.uvs_1, &own, rest).await;
+        attributes.colors = sample_in_pieces(&surface.colors, &own, rest).await;
         Ok(base)
     }
 
     /// Returns the same at the points of the grids of `level`, which is not above that of this.
-    pub fn coarser(&self, mesh: &FilmMesh, level: u32) -> Self {
+    pub async fn coarser(&self, mesh: &FilmMesh, level: u32, rest: &mut impl Rest) -> Self {
         let coarse = Self::numbered(Layout::new(level), mesh, self.wedges.clone(), self.joined.clone());
         let own = self.layout.grid.points_of(&coarse.layout.grid);
-        let of: Vec<usize> = coarse.firsts(mesh, |f, i| self.point(f, own[i] as usize));
+        rest.rest().await;
+        let of: Vec<usize> = coarse.firsts(mesh, |f, i| self.point(f, own[i] as usize), rest).await;
         fn pick<T: Copy>(values: &[T], of: &[usize]) -> Vec<T> {
             if values.is_empty() { Vec::new() } else { of.iter().map(|&i| values[i]).collect() }
         }
@@ -152,15 +161,23 @@ impl Base {
     }
 
     /// Returns for each point the value of `of` at the first face and place of its grid that has the point.
-    fn firsts(&self, mesh: &FilmMesh, of: impl Fn(FaceId, usize) -> usize) -> Vec<usize> {
+    async fn firsts(
+        &self,
+        mesh: &FilmMesh,
+        of: impl Fn(FaceId, usize) -> usize + Send,
+        rest: &mut impl Rest,
+    ) -> Vec<usize> {
         let mut firsts = vec![usize::MAX; self.positions.len()];
-        for f in mesh.topology.all_faces() {
-            for i in 0..self.layout.roles.len() {
-                let first = &mut firsts[self.point(f, i)];
-                if *first == usize::MAX {
-                    *first = of(f, i);
+        for piece in pieces(mesh.topology.face_count(), faces_of(&self.layout, LIGHT_PIECE)) {
+            for f in piece.map(FaceId::new) {
+                for i in 0..self.layout.roles.len() {
+                    let first = &mut firsts[self.point(f, i)];
+                    if *first == usize::MAX {
+                        *first = of(f, i);
+                    }
                 }
             }
+            rest.rest().await;
         }
         firsts
     }
@@ -278,14 +295,20 @@ impl Place {
     }
 }
 
+/// Returns how many faces have about so many points together.
+fn faces_of(layout: &Layout, points: usize) -> usize {
+    (points / layout.roles.len().max(1)).max(1)
+}
+
 /// Returns for each half-edge whether both faces at its edge have the same attributes along it.
-fn joined(
+async fn joined(
     layout: &Layout,
     sites: &FineSites,
     surface: &Surface,
     topology: &Topology,
     wedges: &RestWedges,
     face_slots: &FaceSlots,
+    rest: &mut impl Rest,
 ) -> Arc<[bool]> {
     let mut joined = vec![false; topology.half_edge_count()];
     let on_edge = |h: HalfEdgeId, i: usize| {
@@ -295,15 +318,18 @@ fn joined(
     let same = |a: usize, b: usize| {
         sites.positions[a] == sites.positions[b] && has_same(surface, &sites.sites[a], &sites.sites[b])
     };
-    for h in topology.all_edges() {
-        let Some(t) = topology.rest_twin(h) else { continue };
-        let ends = wedges.at(h) == wedges.at(t.next()) && wedges.at(h.next()) == wedges.at(t);
-        let last = layout.edge_points();
-        let is_joined = ends
-            && face_slots.are_alike(h.face(), t.face())
-            && (0..last).all(|i| same(on_edge(h, i), on_edge(t, last - 1 - i)));
-        joined[h.index()] = is_joined;
-        joined[t.index()] = is_joined;
+    for piece in pieces(topology.half_edge_count(), faces_of(layout, LIGHT_PIECE)) {
+        for h in piece.map(HalfEdgeId::new).filter(|&h| topology.edge(h) == h) {
+            let Some(t) = topology.rest_twin(h) else { continue };
+            let ends = wedges.at(h) == wedges.at(t.next()) && wedges.at(h.next()) == wedges.at(t);
+            let last = layout.edge_points();
+            let is_joined = ends
+                && face_slots.are_alike(h.face(), t.face())
+                && (0..last).all(|i| same(on_edge(h, i), on_edge(t, last - 1 - i)));
+            joined[h.index()] = is_joined;
+            joined[t.index()] = is_joined;
+        }
+        rest.rest().await;
     }
     joined.into()
 }

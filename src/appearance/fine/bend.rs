@@ -1,15 +1,21 @@
 //! Moves fine fronts, and the backs behind them, with the film.
 
+use std::ops::Range;
+
 use bevy_math::{Mat3A, Vec3, Vec3A, Vec4};
 
 use super::{
+    FINE_PIECE,
     backs::FineBacks,
     fronts::FineFronts,
     patch::{Curve, Patch, weights},
     view::{Course, Pose, View, mix, unit},
 };
 use crate::appearance::{part::MeshPart, seen::Seen};
-use crate::film::{FaceId, HalfEdgeId};
+use crate::{
+    film::{FaceId, HalfEdgeId},
+    rest::{Rest, pieces},
+};
 
 /// Where a point of the film has come to.
 struct Bent {
@@ -22,7 +28,13 @@ struct Bent {
 }
 
 /// Writes positions, normals and tangents of what lies at vertices that moved or turned.
-pub(super) fn bend(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mut FineBacks) {
+pub(super) async fn bend(
+    view: &View<'_>,
+    seen: &Seen,
+    fronts: &mut FineFronts,
+    backs: &mut FineBacks,
+    rest: &mut impl Rest,
+) {
     for slot in 0..fronts.parts.len() {
         for wedge in 0..fronts.skin.wedges.slot(slot).film.len() {
             let v = fronts.skin.wedges.slot(slot).film[wedge];
@@ -32,7 +44,16 @@ pub(super) fn bend(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mu
             }
         }
     }
-    for f in view.topology().live_faces() {
+    rest.rest().await;
+    for piece in pieces(view.topology().face_count(), FINE_PIECE) {
+        bend_faces(view, seen, fronts, backs, piece);
+        rest.rest().await;
+    }
+}
+
+/// Moves the edges and the insides of those of the faces at which vertices moved or turned.
+fn bend_faces(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mut FineBacks, faces: Range<usize>) {
+    for f in faces.map(FaceId::new).filter(|&f| view.topology().is_live(f)) {
         let turned = view.topology().corners(f).map(|v| seen.moves.is_turned(v));
         if turned == [false; 3] {
             continue;

@@ -3,6 +3,7 @@
 use bevy_math::{Vec3, Vec3A};
 
 use super::{
+    FINE_PIECE,
     base::{Base, Place},
     outline::{Outlines, rest_patch},
     patch::Curve,
@@ -14,7 +15,10 @@ use crate::appearance::{
     part_changes::PartChanges,
     seen::Seen,
 };
-use crate::film::{FaceId, HalfEdgeId};
+use crate::{
+    film::{FaceId, HalfEdgeId},
+    rest::{Rest, pieces},
+};
 
 /// Fronts of all slots.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +52,7 @@ impl FineFronts {
     }
 
     /// Brings triangles, and what lies at rest where, up to date with what is different about the film.
-    pub(super) fn renew(&mut self, view: &View, seen: &Seen) {
+    pub(super) async fn renew(&mut self, view: &View<'_>, seen: &Seen, rest: &mut impl Rest) {
         let differences = &seen.differences;
         self.changes.iter_mut().for_each(|changes| changes.begin(differences.whole));
         if differences.whole {
@@ -56,14 +60,15 @@ impl FineFronts {
             self.offsets.iter_mut().for_each(Vec::clear);
             self.outlines.clear(view.mesh, view.base);
         }
-        self.skin.follow(view.topology(), view.face_slots, view.base, differences, &mut self.parts);
+        self.skin.follow(view.topology(), view.face_slots, view.base, differences, &mut self.parts, rest).await;
         for (offsets, part) in self.offsets.iter_mut().zip(&self.parts) {
             offsets.reserve_exact(part.positions.len() - offsets.len());
             offsets.resize(part.positions.len(), Vec3::ZERO);
         }
-        self.fill(view);
-        self.chip(view, seen);
-        self.renew_triangles(view);
+        rest.rest().await;
+        self.fill(view, rest).await;
+        self.chip(view, seen, rest).await;
+        self.renew_triangles(view, rest).await;
     }
 
     /// Forgets what was new in the last update, and the memory for it: never again is all new at once.
@@ -73,8 +78,23 @@ impl FineFronts {
     }
 
     /// Puts what lies there at rest into the vertices that are new.
-    fn fill(&mut self, view: &View) {
-        let Self { parts, changes, skin, offsets, renewed_edges, renewed_faces, .. } = self;
+    async fn fill(&mut self, view: &View<'_>, rest: &mut impl Rest) {
+        self.fill_corners(view);
+        rest.rest().await;
+        for piece in pieces(self.skin.new_edges.len(), FINE_PIECE) {
+            piece.for_each(|i| self.fill_edge(view, self.skin.new_edges[i]));
+            rest.rest().await;
+        }
+        for piece in pieces(self.skin.new_faces.len(), FINE_PIECE) {
+            piece.for_each(|i| self.fill_inside(view, self.skin.new_faces[i]));
+            rest.rest().await;
+        }
+        self.renewed_edges.clone_from(&self.skin.new_edges);
+        self.renewed_faces.clone_from(&self.skin.new_faces);
+    }
+
+    fn fill_corners(&mut self, view: &View) {
+        let Self { parts, changes, skin, .. } = self;
         let base = view.base;
         for (slot, (part, changes)) in parts.iter_mut().zip(changes.iter_mut()).enumerate() {
             let wedges = skin.wedges.slot(slot);
@@ -85,72 +105,83 @@ impl FineFronts {
                 changes.stained.push(vertex);
             }
         }
-        for &h in &skin.new_edges {
-            let (slot, Some(vertices)) = (view.face_slots.slot(h.face()), skin.edge(h)) else { continue };
-            let course = Course::of(view, h);
-            let (positions, normals) = view.at_rest(course.ends);
-            let curve = Curve::new(positions, normals);
-            for (i, vertex) in vertices.clone().enumerate() {
-                let point = base.on_edge(h, i);
-                let place = base.of(point);
-                let at_rest = curve.at(&course.pick(&base.layout.edge, i).weights);
-                offsets[slot][vertex] = (Vec3A::from(place.position) - at_rest).into();
-                put(&mut parts[slot], vertex, &place, base, point);
-            }
-            changes[slot].renewed.add(vertices);
+    }
+
+    fn fill_edge(&mut self, view: &View, h: HalfEdgeId) {
+        let (slot, Some(vertices)) = (view.face_slots.slot(h.face()), self.skin.edge(h)) else { return };
+        let base = view.base;
+        let course = Course::of(view, h);
+        let (positions, normals) = view.at_rest(course.ends);
+        let curve = Curve::new(positions, normals);
+        for (i, vertex) in vertices.clone().enumerate() {
+            let point = base.on_edge(h, i);
+            let place = base.of(point);
+            let at_rest = curve.at(&course.pick(&base.layout.edge, i).weights);
+            self.offsets[slot][vertex] = (Vec3A::from(place.position) - at_rest).into();
+            put(&mut self.parts[slot], vertex, &place, base, point);
         }
-        for &f in &skin.new_faces {
-            let (slot, Some(vertices)) = (view.face_slots.slot(f), skin.inside(f)) else { continue };
-            let patch = rest_patch(view, f);
-            for ((i, vertex), spot) in vertices.clone().enumerate().zip(&base.layout.inside) {
-                let point = base.inside(f, i);
-                let place = base.of(point);
-                offsets[slot][vertex] = (Vec3A::from(place.position) - patch.at(&spot.weights)).into();
-                put(&mut parts[slot], vertex, &place, base, point);
-            }
-            changes[slot].renewed.add(vertices);
+        self.changes[slot].renewed.add(vertices);
+    }
+
+    fn fill_inside(&mut self, view: &View, f: FaceId) {
+        let (slot, Some(vertices)) = (view.face_slots.slot(f), self.skin.inside(f)) else { return };
+        let base = view.base;
+        let patch = rest_patch(view, f);
+        for ((i, vertex), spot) in vertices.clone().enumerate().zip(&base.layout.inside) {
+            let point = base.inside(f, i);
+            let place = base.of(point);
+            self.offsets[slot][vertex] = (Vec3A::from(place.position) - patch.at(&spot.weights)).into();
+            put(&mut self.parts[slot], vertex, &place, base, point);
         }
-        renewed_edges.clone_from(&skin.new_edges);
-        renewed_faces.clone_from(&skin.new_faces);
+        self.changes[slot].renewed.add(vertices);
     }
 
     /// Shapes the outlines of faces at edges that have torn.
-    fn chip(&mut self, view: &View, seen: &Seen) {
-        let Self { parts, changes, skin, outlines, offsets, renewed_edges, renewed_faces, .. } = self;
-        let torn = seen.differences.tears.iter().map(|h| h.face());
-        let all = seen.differences.whole.then(|| view.topology().live_faces());
-        for f in torn.chain(all.into_iter().flatten()) {
-            let Some(inside) = skin.inside(f).filter(|_| outlines.has_torn(view.mesh, f)) else { continue };
-            let slot = view.face_slots.slot(f);
-            let (part, offsets) = (&mut parts[slot], &mut offsets[slot]);
-            outlines.shape(view, f, |point| {
-                let Some(mut own) = point.edge.map_or(Some(inside.clone()), |h| skin.edge(h)) else { return };
-                if let Some(vertex) = own.nth(point.i) {
-                    offsets[vertex] = point.offset.into();
-                    point.place.put(part, vertex);
-                }
-            });
-            for h in f.half_edges().into_iter().filter(|&h| outlines.edge(h).is_some()) {
-                changes[slot].renewed.add(skin.edge(h).unwrap_or_default());
-                renewed_edges.push(h);
-            }
-            changes[slot].renewed.add(inside);
-            renewed_faces.push(f);
+    async fn chip(&mut self, view: &View<'_>, seen: &Seen, rest: &mut impl Rest) {
+        seen.differences.tears.iter().for_each(|h| self.chip_face(view, h.face()));
+        let all = if seen.differences.whole { view.topology().face_count() } else { 0 };
+        for piece in pieces(all, FINE_PIECE) {
+            let live = piece.map(FaceId::new).filter(|&f| view.topology().is_live(f));
+            live.for_each(|f| self.chip_face(view, f));
+            rest.rest().await;
         }
+    }
+
+    fn chip_face(&mut self, view: &View, f: FaceId) {
+        let Self { parts, changes, skin, outlines, offsets, renewed_edges, renewed_faces, .. } = self;
+        let Some(inside) = skin.inside(f).filter(|_| outlines.has_torn(view.mesh, f)) else { return };
+        let slot = view.face_slots.slot(f);
+        let (part, offsets) = (&mut parts[slot], &mut offsets[slot]);
+        outlines.shape(view, f, |point| {
+            let Some(mut own) = point.edge.map_or(Some(inside.clone()), |h| skin.edge(h)) else { return };
+            if let Some(vertex) = own.nth(point.i) {
+                offsets[vertex] = point.offset.into();
+                point.place.put(part, vertex);
+            }
+        });
+        for h in f.half_edges().into_iter().filter(|&h| outlines.edge(h).is_some()) {
+            changes[slot].renewed.add(skin.edge(h).unwrap_or_default());
+            renewed_edges.push(h);
+        }
+        changes[slot].renewed.add(inside);
+        renewed_faces.push(f);
     }
 
     /// Writes the triangles of faces whose corners or edges have other vertices, and removes those of faces that are
     /// gone.
-    fn renew_triangles(&mut self, view: &View) {
+    async fn renew_triangles(&mut self, view: &View<'_>, rest: &mut impl Rest) {
         let Self { parts, changes, skin, vertices, .. } = self;
         for (f, indices) in &skin.gone {
             changes[view.face_slots.slot(*f)].indices.add(indices.clone());
         }
-        for &f in &skin.led {
-            let (slot, Some(indices)) = (view.face_slots.slot(f), skin.triangles(f)) else { continue };
-            skin.list(view.topology(), view.base, slot, f, vertices);
-            view.base.put_triangles(&mut parts[slot], vertices, indices.start, view.face_slots.is_flipped(f));
-            changes[slot].indices.add(indices);
+        for piece in skin.led.chunks(FINE_PIECE) {
+            for &f in piece {
+                let (slot, Some(indices)) = (view.face_slots.slot(f), skin.triangles(f)) else { continue };
+                skin.list(view.topology(), view.base, slot, f, vertices);
+                view.base.put_triangles(&mut parts[slot], vertices, indices.start, view.face_slots.is_flipped(f));
+                changes[slot].indices.add(indices);
+            }
+            rest.rest().await;
         }
     }
 }

@@ -3,6 +3,7 @@
 use bevy_math::{Vec3, Vec4};
 
 use super::{
+    FINE_PIECE,
     base::Base,
     runs::Runs,
     skin::list_at_rest,
@@ -13,6 +14,7 @@ use crate::{
     appearance::{face_slots::has_separated, part::MeshPart, part_changes::PartChanges, seen::Seen},
     film::{FaceId, VertexId},
     fracture::FilmForces,
+    rest::{Rest, pieces},
 };
 
 /// Entry of a wedge without metal.
@@ -44,12 +46,22 @@ impl FineMetal {
 
     /// Brings the metal up to date with what is different about the film. It lies `depth` metres under the prop's
     /// surface.
-    pub(super) fn update(&mut self, view: &View, forces: &FilmForces, seen: &Seen, depth: f32) {
+    pub(super) async fn update(
+        &mut self,
+        view: &View<'_>,
+        forces: &FilmForces,
+        seen: &Seen,
+        depth: f32,
+        rest: &mut impl Rest,
+    ) {
         let (topology, differences) = (view.topology(), &seen.differences);
         self.changes.iter_mut().for_each(|changes| changes.begin(differences.whole));
         if differences.whole {
             self.begin(view, forces);
-            topology.all_faces().for_each(|f| self.show(view, forces, seen, depth, f));
+            for piece in pieces(topology.face_count(), FINE_PIECE) {
+                piece.map(FaceId::new).for_each(|f| self.show(view, forces, seen, depth, f));
+                rest.rest().await;
+            }
             return;
         }
         differences.exposed.iter().for_each(|&f| self.show(view, forces, seen, depth, f));

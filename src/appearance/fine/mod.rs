@@ -27,13 +27,20 @@ mod view;
 use std::sync::Arc;
 
 use super::{METAL_DEPTH, face_slots::FaceSlots, part::MeshPart, part_changes::PartChanges, seen::Seen};
-use crate::{film::FilmMesh, fracture::FilmForces};
+use crate::{
+    film::FilmMesh,
+    fracture::FilmForces,
+    rest::{PIECE, Rest},
+};
 use backs::FineBacks;
 pub(super) use base::Base;
 use fronts::FineFronts;
 use metal::FineMetal;
 use vertex_frames::VertexFrames;
 use view::View;
+
+/// Number of faces or edges that make a piece of the work: each has several points.
+const FINE_PIECE: usize = 2 * PIECE;
 
 /// Fine fronts, backs and metal of one film, and the lookups that bring them up to date.
 #[derive(Clone, Debug, Default)]
@@ -63,20 +70,28 @@ impl FineSurface {
     }
 
     /// Brings the parts up to date with what `seen` finds different about the film.
-    pub fn update(&mut self, mesh: &FilmMesh, forces: &FilmForces, face_slots: &FaceSlots, seen: &Seen) {
+    pub async fn update(
+        &mut self,
+        mesh: &FilmMesh,
+        forces: &FilmForces,
+        face_slots: &FaceSlots,
+        seen: &Seen,
+        rest: &mut impl Rest,
+    ) {
         let Self { base, frames, depth, fronts, backs, metal } = self;
         if seen.moved {
             frames.follow(mesh, forces, seen);
         }
         let view = View { mesh, face_slots, base, positions: seen.moves.positions(), frames };
-        fronts.renew(&view, seen);
-        backs.renew(&view, forces, seen, fronts);
-        stains::stain(&view, seen, fronts, backs);
+        rest.rest().await;
+        fronts.renew(&view, seen, rest).await;
+        backs.renew(&view, forces, seen, fronts, rest).await;
+        stains::stain(&view, seen, fronts, backs, rest).await;
         if seen.moved {
-            bend::bend(&view, seen, fronts, backs);
+            bend::bend(&view, seen, fronts, backs, rest).await;
         }
-        backs.finish(&view, seen, fronts);
-        metal.update(&view, forces, seen, *depth);
+        backs.finish(&view, seen, fronts, rest).await;
+        metal.update(&view, forces, seen, *depth, rest).await;
         if seen.differences.whole {
             fronts.forget();
             backs.forget();

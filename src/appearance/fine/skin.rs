@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{base::Base, layout::Role, runs::Runs};
+use super::{FINE_PIECE, base::Base, layout::Role, runs::Runs};
 use crate::appearance::{face_slots::FaceSlots, part::MeshPart, seen::differences::Differences, wedges::Wedges};
-use crate::film::{FaceId, HalfEdgeId, Topology};
+use crate::{
+    film::{FaceId, HalfEdgeId, Topology},
+    rest::{Rest, pieces},
+};
 
 /// Vertices of the fronts of all slots.
 ///
@@ -35,21 +38,23 @@ impl Skin {
     }
 
     /// Gives what is new about the film its vertices in `parts`, and takes those of what is gone away.
-    pub fn follow(
+    pub async fn follow(
         &mut self,
         topology: &Topology,
         face_slots: &FaceSlots,
         base: &Base,
         differences: &Differences,
         parts: &mut [MeshPart],
+        rest: &mut impl Rest,
     ) {
         self.wedges.follow(topology, face_slots, differences);
+        rest.rest().await;
         self.new_edges.clear();
         self.new_faces.clear();
         self.led.clear();
         self.gone.clear();
         if differences.whole {
-            self.begin(topology, face_slots, base, parts);
+            self.begin(topology, face_slots, base, parts, rest).await;
             return;
         }
         for &f in &differences.gone {
@@ -75,16 +80,23 @@ impl Skin {
     }
 
     /// Gives all that is shown its vertices.
-    fn begin(&mut self, topology: &Topology, face_slots: &FaceSlots, base: &Base, parts: &mut [MeshPart]) {
+    async fn begin(
+        &mut self,
+        topology: &Topology,
+        face_slots: &FaceSlots,
+        base: &Base,
+        parts: &mut [MeshPart],
+        rest: &mut impl Rest,
+    ) {
         let layout = &base.layout;
         self.corners.clear();
         self.corners.resize_with(parts.len(), Vec::new);
         self.runs.clear(topology.face_count(), parts.len());
-        let shown = || topology.live_faces().filter(|&f| !face_slots.is_hidden(f));
+        let is_shown = |f: FaceId| topology.is_live(f) && !face_slots.is_hidden(f);
         let owns = |&h: &HalfEdgeId| owner(topology, base, h) == h;
         // Counted first, so that the parts have room for no more than they hold.
         let mut counts: Vec<[usize; 2]> = (0..parts.len()).map(|slot| [self.wedges.slot(slot).film.len(), 0]).collect();
-        for f in shown() {
+        for f in topology.all_faces().filter(|&f| is_shown(f)) {
             let [vertices, indices] = &mut counts[face_slots.slot(f)];
             *vertices +=
                 layout.inner_points() + layout.edge_points() * f.half_edges().iter().filter(|h| owns(h)).count();
@@ -94,14 +106,18 @@ impl Skin {
             base.reserve(part, vertices, indices);
         }
         self.add_corners(parts);
-        for f in shown() {
-            let slot = face_slots.slot(f);
-            for h in f.half_edges().into_iter().filter(owns) {
-                self.runs.take_edge(h, slot, &mut parts[slot]);
-                self.new_edges.push(h);
+        rest.rest().await;
+        for piece in pieces(topology.face_count(), FINE_PIECE) {
+            for f in piece.map(FaceId::new).filter(|&f| is_shown(f)) {
+                let slot = face_slots.slot(f);
+                for h in f.half_edges().into_iter().filter(owns) {
+                    self.runs.take_edge(h, slot, &mut parts[slot]);
+                    self.new_edges.push(h);
+                }
+                self.runs.take_face(f, slot, &mut parts[slot]);
+                self.new_faces.push(f);
             }
-            self.runs.take_face(f, slot, &mut parts[slot]);
-            self.new_faces.push(f);
+            rest.rest().await;
         }
         self.led.extend_from_slice(&self.new_faces);
     }

@@ -3,16 +3,26 @@
 use bevy_math::{Vec3, Vec4};
 
 use super::{
+    FINE_PIECE,
     backs::FineBacks,
     fronts::FineFronts,
     layout::EdgeSpot,
     view::{Course, View},
 };
 use crate::appearance::seen::Seen;
-use crate::film::{FaceId, HalfEdgeId, VertexId};
+use crate::{
+    film::{FaceId, HalfEdgeId, VertexId},
+    rest::{Rest, pieces},
+};
 
 /// Writes the stains of all that lies at vertices whose stains changed, and of what is new.
-pub(super) fn stain(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mut FineBacks) {
+pub(super) async fn stain(
+    view: &View<'_>,
+    seen: &Seen,
+    fronts: &mut FineFronts,
+    backs: &mut FineBacks,
+    rest: &mut impl Rest,
+) {
     let (look, all) = (&seen.looks.film, seen.differences.whole);
     if all || look.any {
         for slot in 0..fronts.parts.len() {
@@ -23,22 +33,12 @@ pub(super) fn stain(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &m
                 }
             }
         }
-        for f in view.topology().live_faces() {
-            let changed = view.topology().corners(f).map(|v| all || look.has_changed(v.index()));
-            if changed == [false; 3] {
-                continue;
+        rest.rest().await;
+        for piece in pieces(view.topology().face_count(), FINE_PIECE) {
+            for f in piece.map(FaceId::new).filter(|&f| view.topology().is_live(f)) {
+                stain_face(view, seen, fronts, backs, f);
             }
-            for (k, h) in f.half_edges().into_iter().enumerate() {
-                // Points of chipped edges lie between all three corners.
-                if changed[k] | changed[(k + 1) % 3] || fronts.outlines.edge(h).is_some() {
-                    stain_edge(view, seen, fronts, backs, h);
-                }
-            }
-            stain_inside(view, seen, fronts, backs, f);
-            for h in f.half_edges().into_iter().filter(|_| backs.rims.any(f)) {
-                let slot = view.face_slots.slot(f);
-                backs.rims.stain(view, fronts, h, &mut backs.parts[slot], &mut backs.changes[slot]);
-            }
+            rest.rest().await;
         }
     }
     if all {
@@ -55,6 +55,26 @@ pub(super) fn stain(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &m
     }
     for i in 0..fronts.renewed_faces.len() {
         stain_inside(view, seen, fronts, backs, fronts.renewed_faces[i]);
+    }
+}
+
+/// Stains the edges and the inside of a face, if the stains at its corners changed.
+fn stain_face(view: &View, seen: &Seen, fronts: &mut FineFronts, backs: &mut FineBacks, f: FaceId) {
+    let (look, all) = (&seen.looks.film, seen.differences.whole);
+    let changed = view.topology().corners(f).map(|v| all || look.has_changed(v.index()));
+    if changed == [false; 3] {
+        return;
+    }
+    for (k, h) in f.half_edges().into_iter().enumerate() {
+        // Points of chipped edges lie between all three corners.
+        if changed[k] | changed[(k + 1) % 3] || fronts.outlines.edge(h).is_some() {
+            stain_edge(view, seen, fronts, backs, h);
+        }
+    }
+    stain_inside(view, seen, fronts, backs, f);
+    for h in f.half_edges().into_iter().filter(|_| backs.rims.any(f)) {
+        let slot = view.face_slots.slot(f);
+        backs.rims.stain(view, fronts, h, &mut backs.parts[slot], &mut backs.changes[slot]);
     }
 }
 

@@ -5,7 +5,8 @@ use bevy_math::Vec3;
 use crate::{
     film::{FaceId, HalfEdgeId, VertexId},
     remesh::{film::BuiltFilm, frame::Frame, project::Foot, project::distance_to_triangle, project::nearest_weights},
-    surface::{CleanSurface, SurfaceSite, twins},
+    rest::{LIGHT_PIECE, Rest, pieces},
+    surface::{CleanSurface, SurfaceSite, twins_in_pieces},
 };
 
 /// Film in the frame in which it was built. Its corners are named by the half-edges that start there.
@@ -20,12 +21,18 @@ pub struct Corners<'a> {
 }
 
 impl<'a> Corners<'a> {
-    pub fn new(clean: &CleanSurface, built: &'a BuiltFilm, frame: &Frame) -> Self {
+    pub async fn new(clean: &CleanSurface, built: &'a BuiltFilm, frame: &Frame, rest: &mut impl Rest) -> Self {
         let positions = built.positions.iter().map(|&p| frame.inside(p)).collect();
-        let twins = twins(&built.triangles);
+        let twins = twins_in_pieces(&built.triangles, rest).await;
         let mut corners = Self { built, positions, twins, feet: Vec::new(), normals: Vec::new() };
-        let pieces = Pieces::new(clean);
-        corners.feet = corners.half_edges().map(|h| pieces.foot(clean, corners.position(h), corners.site(h))).collect();
+        let parts = Pieces::new(clean);
+        for piece in pieces(3 * built.triangles.len(), LIGHT_PIECE) {
+            for h in piece.map(HalfEdgeId::new) {
+                let foot = parts.foot(clean, corners.position(h), corners.site(h));
+                corners.feet.push(foot);
+            }
+            rest.rest().await;
+        }
         let normal = |f: FaceId| {
             let [a, b, c] = corners.positions_of(f).map(|p| p.as_dvec3());
             (b - a).cross(c - a).try_normalize().unwrap_or_default().as_vec3()
@@ -38,7 +45,7 @@ impl<'a> Corners<'a> {
         (0..self.built.triangles.len()).map(FaceId::new)
     }
 
-    pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + use<> {
+    pub fn half_edges(&self) -> impl ExactSizeIterator<Item = HalfEdgeId> + use<> {
         (0..3 * self.built.triangles.len()).map(HalfEdgeId::new)
     }
 

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     film::{FaceGrid, HalfEdgeId},
+    rest::{PIECE, Rest, pieces},
     surface::SurfaceSite,
 };
 
@@ -20,19 +21,22 @@ pub struct Edges {
 }
 
 impl Edges {
-    pub fn new(seeker: &Seeker, corners: &Corners, grid: &FaceGrid) -> Self {
+    pub async fn new(seeker: &Seeker<'_>, corners: &Corners<'_>, grid: &FaceGrid, rest: &mut impl Rest) -> Self {
         let count = 1 << grid.level();
         let inner = (count - 1) * corners.half_edges().count();
         let none = SurfaceSite { triangle: 0, weights: Vec3::X };
         let mut edges = Self { count, positions: vec![Vec3::ZERO; inner], sites: vec![none; inner] };
-        for h in corners.half_edges().filter(|&h| corners.leads(h)) {
-            for i in 1..count {
-                let (position, own, far) = point(seeker, corners, h, i as f32 / count as f32);
-                edges.set(h, i, position, own);
-                if let (Some(t), Some(far)) = (corners.twin(h), far) {
-                    edges.set(t, count - i, position, far);
+        for piece in pieces(corners.half_edges().len(), (4 * PIECE / count).max(1)) {
+            for h in piece.map(HalfEdgeId::new).filter(|&h| corners.leads(h)) {
+                for i in 1..count {
+                    let (position, own, far) = point(seeker, corners, h, i as f32 / count as f32);
+                    edges.set(h, i, position, own);
+                    if let (Some(t), Some(far)) = (corners.twin(h), far) {
+                        edges.set(t, count - i, position, far);
+                    }
                 }
             }
+            rest.rest().await;
         }
         edges
     }

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     film::{FaceGrid, FaceId, HalfEdgeId},
+    rest::{PIECE, Rest},
     surface::SurfaceSite,
 };
 
@@ -45,7 +46,13 @@ pub struct Faces {
 }
 
 impl Faces {
-    pub fn new(seeker: &Seeker, corners: &Corners, mut edges: Edges, grid: &FaceGrid) -> Self {
+    pub async fn new(
+        seeker: &Seeker<'_>,
+        corners: &Corners<'_>,
+        mut edges: Edges,
+        grid: &FaceGrid,
+        rest: &mut impl Rest,
+    ) -> Self {
         let places = places(grid);
         let count = corners.faces().count() * grid.points().len();
         let none = SurfaceSite { triangle: 0, weights: Vec3::X };
@@ -55,10 +62,14 @@ impl Faces {
         let mut open: Vec<FaceId> = corners.faces().collect();
         // A face goes two steps at most, and opens its three neighbours once.
         while !open.is_empty() {
-            for &f in &open {
-                faces.fill(seeker, corners, &edges, grid, &places, f, ways[f.index()]);
+            let mut folded: Vec<FaceId> = Vec::new();
+            for piece in open.chunks((4 * PIECE / places.len()).max(1)) {
+                for &f in piece {
+                    faces.fill(seeker, corners, &edges, grid, &places, f, ways[f.index()]);
+                }
+                folded.extend(piece.iter().copied().filter(|&f| faces.is_folded(corners, grid, f)));
+                rest.rest().await;
             }
-            let folded: Vec<FaceId> = open.iter().copied().filter(|&f| faces.is_folded(corners, grid, f)).collect();
             open.clear();
             for f in folded {
                 let way = &mut ways[f.index()];

@@ -5,6 +5,7 @@ use bevy_math::Vec3;
 use crate::{
     film::{FaceId, HalfEdgeId},
     remesh::{features::CREASE, project::Ground, seams::Seams, topology::Topology},
+    rest::{LIGHT_PIECE, Rest, pieces},
     surface::{CleanSurface, Surface},
 };
 
@@ -20,25 +21,29 @@ pub struct FineGround {
 }
 
 impl FineGround {
-    pub fn new(surface: &Surface, clean: &CleanSurface) -> Self {
-        let topology = Topology::new(&clean.triangles, clean.positions.len());
+    pub async fn new(surface: &Surface, clean: &CleanSurface, rest: &mut impl Rest) -> Self {
+        let topology = Topology::new(&clean.triangles, clean.positions.len(), rest).await;
         let triangles: Vec<_> = clean.triangles.iter().map(|t| t.map(|v| clean.positions[v as usize])).collect();
         let normals: Vec<Vec3> = triangles.iter().map(|[a, b, c]| (b - a).cross(c - a).normalize_or_zero()).collect();
-        let seams = Seams::new(surface, clean);
+        rest.rest().await;
+        let seams = Seams::new(surface, clean, rest).await;
         let mut is_line = vec![false; 3 * triangles.len()];
         let mut is_wall = is_line.clone();
-        for h in topology.edges() {
-            let Some(t) = topology.twin(h) else {
-                is_line[h.index()] = true;
-                continue;
-            };
-            let is_seam = seams.divide(h, t, false);
-            let is_crease = || normals[h.face().index()].dot(normals[t.face().index()]) < CREASE;
-            let is_either = is_seam || is_crease();
-            for h in [h, t] {
-                is_line[h.index()] = is_either;
-                is_wall[h.index()] = is_seam;
+        for half_edges in pieces(topology.half_edge_slots(), LIGHT_PIECE) {
+            for h in topology.edges_in(half_edges) {
+                let Some(t) = topology.twin(h) else {
+                    is_line[h.index()] = true;
+                    continue;
+                };
+                let is_seam = seams.divide(h, t, false);
+                let is_crease = || normals[h.face().index()].dot(normals[t.face().index()]) < CREASE;
+                let is_either = is_seam || is_crease();
+                for h in [h, t] {
+                    is_line[h.index()] = is_either;
+                    is_wall[h.index()] = is_seam;
+                }
             }
+            rest.rest().await;
         }
         Self { topology, triangles, is_line, is_wall }
     }

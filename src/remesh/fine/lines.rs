@@ -11,6 +11,7 @@ use super::{corners::Corners, ground::FineGround};
 use crate::{
     film::{HalfEdgeId, VertexId},
     remesh::project::{Foot, Ground},
+    rest::{PIECE, Rest, pieces},
 };
 
 /// Weight of a corner up to which a point lies on the opposite side. Only weights at former T-junctions are rounded.
@@ -47,12 +48,14 @@ pub struct LinePoint {
 }
 
 impl Lines {
-    pub fn new(ground: &FineGround, corners: &Corners) -> Self {
+    pub async fn new(ground: &FineGround, corners: &Corners<'_>, rest: &mut impl Rest) -> Self {
         let mut tracer = Tracer::new(ground, corners);
+        rest.rest().await;
         let mut lines = Self { ranges: vec![0..0; corners.half_edges().count()], ..Self::default() };
         lines.is_on_line = tracer.places.iter().map(Option::is_some).collect();
-        for v in (0..corners.vertex_count()).map(VertexId::new) {
-            tracer.trace(v, &mut lines);
+        for piece in pieces(corners.vertex_count(), PIECE) {
+            piece.map(VertexId::new).for_each(|v| tracer.trace(v, &mut lines));
+            rest.rest().await;
         }
         lines
     }

@@ -25,7 +25,8 @@ use super::film::{BuiltFilm, MAX_FILM_TRIANGLES};
 use super::frame::Frame;
 use crate::{
     film::FaceGrid,
-    surface::{BuildError, Surface, SurfaceSite, clean},
+    rest::{NoRest, Rest, at_once},
+    surface::{BuildError, Surface, SurfaceSite, clean_in_pieces},
 };
 use corners::Corners;
 use edges::Edges;
@@ -56,8 +57,8 @@ pub struct FineSites {
 /// that do not exist. The result is the same on every run, to the bit.
 ///
 /// # Errors
-/// The errors of [`clean`], [`BuildError::Size`] for a surface smaller than 0.1 mm or larger than 1,000 km, and
-/// [`BuildError::TooLarge`] if there would be more than [`MAX_FILM_TRIANGLES`] small triangles.
+/// The errors of [`clean`](crate::surface::clean), [`BuildError::Size`] for a surface smaller than 0.1 mm or larger
+/// than 1,000 km, and [`BuildError::TooLarge`] if there would be more than [`MAX_FILM_TRIANGLES`] small triangles.
 ///
 /// ```
 /// use bevy_coating::{film::FaceGrid, remesh::{fine_sites, sample::curved_plate}};
@@ -73,18 +74,31 @@ pub struct FineSites {
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 pub fn fine_sites(surface: &Surface, built: &BuiltFilm, grid: &FaceGrid) -> Result<FineSites, BuildError> {
+    at_once(fine_sites_in_pieces(surface, built, grid, &mut NoRest))
+}
+
+/// Does what [`fine_sites`] does, with rests between its pieces.
+///
+/// # Errors
+/// See [`fine_sites`].
+pub(crate) async fn fine_sites_in_pieces(
+    surface: &Surface,
+    built: &BuiltFilm,
+    grid: &FaceGrid,
+    rest: &mut impl Rest,
+) -> Result<FineSites, BuildError> {
     let frame = Frame::of(surface)?;
     let moved = frame.enter(surface);
     let surface = moved.as_ref().unwrap_or(surface);
-    let clean = clean(surface)?;
+    let clean = clean_in_pieces(surface, rest).await?;
     let found = built.triangles.len().saturating_mul(grid.triangles().len());
     if found > MAX_FILM_TRIANGLES {
         return Err(BuildError::TooLarge { found, limit: MAX_FILM_TRIANGLES });
     }
-    let corners = Corners::new(&clean, built, &frame);
-    let seeker = Seeker::new(surface, &clean, &corners);
-    let edges = Edges::new(&seeker, &corners, grid);
-    let faces = Faces::new(&seeker, &corners, edges, grid);
+    let corners = Corners::new(&clean, built, &frame, rest).await;
+    let seeker = Seeker::new(surface, &clean, &corners, rest).await;
+    let edges = Edges::new(&seeker, &corners, grid, rest).await;
+    let faces = Faces::new(&seeker, &corners, edges, grid, rest).await;
     Ok(FineSites {
         positions: faces
             .positions

@@ -14,6 +14,7 @@ use crate::{
         project::{Foot, project},
         sites::site,
     },
+    rest::Rest,
     surface::{CleanSurface, Surface, SurfaceSite},
 };
 
@@ -36,15 +37,14 @@ pub struct Found {
 }
 
 impl<'a> Seeker<'a> {
-    pub fn new(surface: &Surface, clean: &'a CleanSurface, corners: &Corners) -> Self {
-        let is_flat = corners.faces().all(|f| corners.is_flat(f) || !corners.is_known(f));
-        let ground = (!is_flat).then(|| {
-            let mut ground = FineGround::new(surface, clean);
-            let lines = Lines::new(&ground, corners);
-            lines.raise_walls(&mut ground);
-            (ground, lines)
-        });
-        Self { clean, ground }
+    pub async fn new(surface: &Surface, clean: &'a CleanSurface, corners: &Corners<'_>, rest: &mut impl Rest) -> Self {
+        if corners.faces().all(|f| corners.is_flat(f) || !corners.is_known(f)) {
+            return Self { clean, ground: None };
+        }
+        let mut ground = FineGround::new(surface, clean, rest).await;
+        let lines = Lines::new(&ground, corners, rest).await;
+        lines.raise_walls(&mut ground);
+        Self { clean, ground: Some((ground, lines)) }
     }
 
     /// Returns the point of the surface along `normal` from `expected`, or else the nearest one. The walks begin at

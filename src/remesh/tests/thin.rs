@@ -127,9 +127,9 @@ fn a_flat_pair_of_needles_is_flipped() {
     };
     let cleaned = clean(&surface).expect("a clean surface");
     let scale = Scale { target: 0.2, triangles: 2.0, fidelity: Fidelity::Facets };
-    let reference = Reference::new(&surface, &cleaned, scale);
+    let reference = at_once(Reference::new(&surface, &cleaned, scale, &mut NoRest));
     let mut mesh = WorkMesh::new(&reference);
-    flip_edges(&mut mesh);
+    at_once(flip_edges(&mut mesh, &mut NoRest));
     mesh.topology.check();
     assert!(mesh.topology.edge_between(VertexId(0), VertexId(1)).is_none(), "the long diagonal is still there");
     assert!(mesh.topology.edge_between(VertexId(2), VertexId(3)).is_some());

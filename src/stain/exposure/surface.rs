@@ -7,6 +7,7 @@ use bevy_math::{Affine3A, Vec3, ops};
 use super::{ray::Ray, tree::TriangleTree};
 use crate::{
     film::{FilmMesh, VertexId},
+    rest::{NoRest, PIECE, Rest, at_once},
     stain::fields::Exposure,
 };
 
@@ -74,10 +75,16 @@ pub struct Blocker {
 impl ExposedSurface {
     /// Prepares the surface of `mesh` as it was at rest, whatever has torn, moved or fallen since.
     pub fn new(mesh: &FilmMesh) -> Self {
+        at_once(Self::new_in_pieces(mesh, &mut NoRest))
+    }
+
+    /// Does what [`new`](Self::new) does, with rests between its pieces.
+    pub(crate) async fn new_in_pieces(mesh: &FilmMesh, rest: &mut impl Rest) -> Self {
         let (topology, geometry) = (&mesh.topology, &mesh.geometry);
         let originals = topology.original_vertex_count();
         let at = |v: VertexId| geometry.rest_positions[topology.original(v).index()];
-        let tree = TriangleTree::new(topology.all_faces().map(|f| topology.corners(f).map(at)));
+        let triangles = topology.all_faces().map(|f| topology.corners(f).map(at));
+        let tree = TriangleTree::new_in_pieces(triangles, rest).await;
         let normals = geometry.rest_normals[..originals].to_vec();
         let points = geometry.rest_positions[..originals]
             .iter()
@@ -100,12 +107,23 @@ impl ExposedSurface {
     /// is no rain or sunlight: no rays are cast and its field of the result is empty. A field is also empty if
     /// everything is exposed. The surface blocks its own rays, beside the `blockers`.
     pub fn cast(&self, blockers: &[Blocker], rain: Vec3, sun: Vec3) -> Exposure {
-        Exposure { rain: self.cast_one(blockers, rain), sun: self.cast_one(blockers, sun) }
+        at_once(self.cast_in_pieces(blockers, rain, sun, &mut NoRest))
+    }
+
+    /// Does what [`cast`](Self::cast) does, with rests between its pieces.
+    pub(crate) async fn cast_in_pieces(
+        &self,
+        blockers: &[Blocker],
+        rain: Vec3,
+        sun: Vec3,
+        rest: &mut impl Rest,
+    ) -> Exposure {
+        Exposure { rain: self.cast_one(blockers, rain, rest).await, sun: self.cast_one(blockers, sun, rest).await }
     }
 
     /// Returns the share of the rays against `direction` that meet nothing, for each original vertex; empty if no ray
     /// meets anything.
-    fn cast_one(&self, blockers: &[Blocker], direction: Vec3) -> Vec<f32> {
+    async fn cast_one(&self, blockers: &[Blocker], direction: Vec3, rest: &mut impl Rest) -> Vec<f32> {
         let Some(up) = (-direction).try_normalize() else { return Vec::new() };
         let blockers: Vec<&Blocker> = blockers.iter().filter(|blocker| self.may_meet(blocker, up)).collect();
         let (mut cast, mut free) = (vec![0u32; self.points.len()], vec![0u32; self.points.len()]);
@@ -119,13 +137,13 @@ impl ExposedSurface {
                 *cast += u32::from(*open);
             }
             let own = Ray::new(towards);
-            close(&mut open, &self.points, |p| self.tree.is_met(&own, p));
+            close(&mut open, &self.points, |p| self.tree.is_met(&own, p), rest).await;
             for blocker in &blockers {
                 let Some(direction) = blocker.into.transform_vector3(towards).try_normalize() else { continue };
                 let ray = Ray::new(direction);
                 origins.clear();
                 origins.extend(self.points.iter().map(|&p| blocker.into.transform_point3(p)));
-                close(&mut open, &origins, |p| blocker.tree.is_met(&ray, p));
+                close(&mut open, &origins, |p| blocker.tree.is_met(&ray, p), rest).await;
             }
             for (free, &open) in free.iter_mut().zip(&open) {
                 *free += u32::from(open);
@@ -158,9 +176,12 @@ impl ExposedSurface {
 }
 
 /// Clears each entry of `open` whose point is met.
-fn close(open: &mut [bool], points: &[Vec3], is_met: impl Fn(Vec3) -> bool) {
-    for (open, &p) in open.iter_mut().zip(points) {
-        *open = *open && !is_met(p);
+async fn close(open: &mut [bool], points: &[Vec3], is_met: impl Fn(Vec3) -> bool + Send, rest: &mut impl Rest) {
+    for (open, points) in open.chunks_mut(2 * PIECE).zip(points.chunks(2 * PIECE)) {
+        for (open, &p) in open.iter_mut().zip(points) {
+            *open = *open && !is_met(p);
+        }
+        rest.rest().await;
     }
 }
 

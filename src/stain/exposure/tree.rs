@@ -1,14 +1,20 @@
 //! Arranges triangles in a tree of boxes, to find quickly whether a ray meets any of them.
 
+use std::ops::Range;
+
 use bevy_math::Vec3;
 
 use super::ray::Ray;
+use crate::rest::{LIGHT_PIECE, NoRest, Rest, at_once};
 
 /// Largest number of triangles in a leaf.
 const LEAF: usize = 4;
 /// Size of the stack of a walk through the tree. Every node splits its triangles into halves, so 32 levels would do for
 /// 2^32 triangles.
 const DEPTH: usize = 64;
+
+/// Number of triangles that are sorted in a piece of the work, each time that one is.
+const SORTED: usize = 4 * LIGHT_PIECE;
 
 /// Triangles in a tree of boxes, which finds quickly whether a ray meets any of them.
 ///
@@ -43,11 +49,26 @@ struct Node {
 /// Triangle that is being sorted into the tree, after twice the centre of its box.
 type Item = (Vec3, [Vec3; 3]);
 
+/// Items that are to become a node.
+struct Branch {
+    items: Range<usize>,
+    /// Node of which it is the second child, if it is one.
+    parent: Option<usize>,
+}
+
 impl TriangleTree {
     /// Builds a tree of `triangles`, whose orientation does not matter. Triangles with a corner that is not finite are
     /// left out.
     pub fn new(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Self {
-        let mut items: Vec<Item> = triangles
+        at_once(Self::new_in_pieces(triangles, &mut NoRest))
+    }
+
+    /// Does what [`new`](Self::new) does, with rests between its pieces.
+    pub(crate) fn new_in_pieces(
+        triangles: impl IntoIterator<Item = [Vec3; 3]>,
+        rest: &mut impl Rest,
+    ) -> impl Future<Output = Self> + Send {
+        let items: Vec<Item> = triangles
             .into_iter()
             .filter(|t| t.iter().all(|corner| corner.is_finite()))
             .map(|t| {
@@ -55,17 +76,36 @@ impl TriangleTree {
                 (min + max, t)
             })
             .collect();
+        Self::of_items(items, rest)
+    }
+
+    async fn of_items(mut items: Vec<Item>, rest: &mut impl Rest) -> Self {
         let mut tree = Self { nodes: Vec::with_capacity(items.len()), triangles: Vec::with_capacity(items.len()) };
-        if !items.is_empty() {
-            tree.grow(&mut items);
+        let mut open = Vec::new();
+        open.extend((!items.is_empty()).then_some(Branch { items: 0..items.len(), parent: None }));
+        rest.rest().await;
+        while !open.is_empty() {
+            let mut done = 0;
+            while done < SORTED
+                && let Some(branch) = open.pop()
+            {
+                done += branch.items.len();
+                tree.grow(&mut items, branch, &mut open);
+            }
+            rest.rest().await;
         }
         tree
     }
 
-    /// Appends the node of `items` and all nodes below it.
-    fn grow(&mut self, items: &mut [Item]) {
-        let (min, max) = bounds(items.iter().map(|(_, triangle)| triangle));
+    /// Appends the node of some of the items. The two below it come next, the first one on top.
+    fn grow(&mut self, items: &mut [Item], branch: Branch, open: &mut Vec<Branch>) {
+        let Branch { items: range, parent } = branch;
         let node = self.nodes.len();
+        if let Some(parent) = parent.and_then(|parent| self.nodes.get_mut(parent)) {
+            (parent.first, parent.count) = (node as u32, 0);
+        }
+        let Some(items) = items.get_mut(range.clone()) else { return };
+        let (min, max) = bounds(items.iter().map(|(_, triangle)| triangle));
         self.nodes.push(Node { min, max, first: self.triangles.len() as u32, count: items.len() as u32 });
         if items.len() <= LEAF {
             self.triangles.extend(items.iter().map(|(_, triangle)| triangle));
@@ -76,13 +116,9 @@ impl TriangleTree {
         let axis = (high - low).max_position();
         let half = items.len() / 2;
         items.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]));
-        let (near, far) = items.split_at_mut(half);
-        self.grow(near);
-        let second = self.nodes.len() as u32;
-        self.grow(far);
-        if let Some(node) = self.nodes.get_mut(node) {
-            (node.first, node.count) = (second, 0);
-        }
+        let middle = range.start + half;
+        open.push(Branch { items: middle..range.end, parent: Some(node) });
+        open.push(Branch { items: range.start..middle, parent: None });
     }
 
     /// Returns whether the ray from `origin` meets any triangle, from either side.

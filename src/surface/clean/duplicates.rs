@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::face::Face;
+use crate::rest::{Rest, sort_by_number};
 
 /// Drops every face that has the vertices and the winding of an earlier one. Returns the number of faces dropped.
 ///
@@ -10,9 +11,14 @@ use super::face::Face;
 /// copies, but each closes the surface at its edges, and an even number of them closes nothing: the faces around them
 /// meet without any. So the first of an even number goes, too, where that leaves fewer edges with an odd number of
 /// faces.
-pub(super) fn drop_duplicates(faces: &mut Vec<Face>, is_filler: impl Fn(&Face) -> bool) -> usize {
-    let mut order: Vec<_> = faces.iter().enumerate().map(|(f, face)| (lowest_first(face.vertices), f)).collect();
-    order.sort_unstable();
+pub(super) async fn drop_duplicates(
+    faces: &mut Vec<Face>,
+    is_filler: impl Fn(&Face) -> bool + Send + Sync,
+    rest: &mut impl Rest,
+) -> usize {
+    let order: Vec<_> = faces.iter().enumerate().map(|(f, face)| (lowest_first(face.vertices), f)).collect();
+    rest.rest().await;
+    let order = sort_by_number(order, |&([lowest, ..], _)| lowest, rest).await;
     let mut repeats = vec![false; faces.len()];
     let mut pairs = Vec::new();
     for run in order.chunk_by(|a, b| a.0 == b.0) {
@@ -21,6 +27,7 @@ pub(super) fn drop_duplicates(faces: &mut Vec<Face>, is_filler: impl Fn(&Face) -
             pairs.push(run[0].1);
         }
     }
+    rest.rest().await;
     drop_pairs(faces, &pairs, &mut repeats);
     let before = faces.len();
     let mut repeats = repeats.into_iter();

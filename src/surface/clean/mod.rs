@@ -45,10 +45,12 @@ use super::{
     prop_surface::{Surface, SurfaceSite},
     warning::BuildWarning,
 };
+use crate::rest::{LIGHT_PIECE, NoRest, Rest, at_once};
 use face::{Face, NONE, has_repeats};
 
 pub use clean_surface::CleanSurface;
 pub use pair::twins;
+pub(crate) use pair::twins_in_pieces;
 
 /// Cleans a surface: welds its vertices, repairs it and turns its triangles, so that it becomes an oriented manifold.
 ///
@@ -76,8 +78,16 @@ pub use pair::twins;
 /// # Ok::<(), bevy_coating::surface::BuildError>(())
 /// ```
 pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
+    at_once(clean_in_pieces(surface, &mut NoRest))
+}
+
+/// Does what [`clean`] does, with rests between its pieces.
+///
+/// # Errors
+/// See [`clean`].
+pub(crate) async fn clean_in_pieces(surface: &Surface, rest: &mut impl Rest) -> Result<CleanSurface, BuildError> {
     validate::validate(surface)?;
-    let welded = weld::weld(surface);
+    let welded = weld::weld(surface, rest).await;
     let mut positions = welded.positions;
 
     let mut faces = Vec::with_capacity(surface.triangles.len());
@@ -97,21 +107,23 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
     }
     let points_and_lines = surface.triangles.len() - faces.len();
     let is_filler = |face: &Face| sliver::is_filler(face, &positions, welded.tolerance);
-    let duplicates = duplicates::drop_duplicates(&mut faces, is_filler);
-    let degenerate = points_and_lines + sliver::dissolve(&mut faces, &positions, welded.tolerance);
+    let duplicates = duplicates::drop_duplicates(&mut faces, is_filler, rest).await;
+    let degenerate = points_and_lines + sliver::dissolve(&mut faces, &positions, welded.tolerance, rest).await;
     if faces.is_empty() {
         return Err(BuildError::AllDegenerate { triangles: surface.triangles.len() });
     }
 
     // Windings are unified over the manifold parts first, because the pairing of faces along edges with more
     // than two of them relies on windings.
-    let edges = pair::Edges::new(&faces);
-    let mut twin = edges.pair_manifold(&faces);
-    let mut cut = orient::unify(&mut faces, &mut twin, &positions);
-    let edges = pair::Edges::new(&faces);
-    edges.pair_others(&faces, &positions, &mut twin);
-    cut += orient::unify(&mut faces, &mut twin, &positions);
-    let split = fans::split(&mut faces, &mut twin, &mut positions, &edges);
+    let mut edges = pair::Edges::new(&faces, rest).await;
+    let mut twin = edges.pair_manifold(&faces, rest).await;
+    let mut cut = orient::unify(&mut faces, &mut twin, &positions, rest).await;
+    if faces.iter().any(|face| face.flipped) {
+        edges = pair::Edges::new(&faces, rest).await;
+    }
+    edges.pair_others(&faces, &positions, &mut twin, rest).await;
+    cut += orient::unify(&mut faces, &mut twin, &positions, rest).await;
+    let split = fans::split(&mut faces, &mut twin, &mut positions, &edges, rest).await;
 
     let warnings = [
         (degenerate, BuildWarning::DegenerateDropped as fn(u32) -> _),
@@ -122,11 +134,18 @@ pub fn clean(surface: &Surface) -> Result<CleanSurface, BuildError> {
         (faces.iter().filter(|face| face.flipped).count(), BuildWarning::WindingTurned),
     ];
     let warnings = warnings.into_iter().filter(|(count, _)| *count > 0).map(|(count, warning)| warning(count as u32));
-    Ok(collect(faces, &positions, warnings.collect()))
+    let warnings = warnings.collect();
+    rest.rest().await;
+    Ok(collect(faces, &positions, warnings, rest).await)
 }
 
 /// Drops unused vertices and takes the faces apart into flat arrays.
-fn collect(faces: Vec<Face>, positions: &[Vec3], warnings: Vec<BuildWarning>) -> CleanSurface {
+async fn collect(
+    faces: Vec<Face>,
+    positions: &[Vec3],
+    warnings: Vec<BuildWarning>,
+    rest: &mut impl Rest,
+) -> CleanSurface {
     let mut used = vec![false; positions.len()];
     for face in &faces {
         for v in face.vertices {
@@ -139,12 +158,16 @@ fn collect(faces: Vec<Face>, positions: &[Vec3], warnings: Vec<BuildWarning>) ->
         new_index[v] = clean.positions.len() as u32;
         clean.positions.push(*position);
     }
-    for face in faces {
-        clean.triangles.push(face.vertices.map(|v| new_index[v as usize]));
-        clean.corners.push(face.corners);
-        clean.sites.push(face.weights.map(|weights| SurfaceSite { triangle: face.source, weights }));
-        clean.source.push(face.source);
-        clean.flipped.push(face.flipped);
+    rest.rest().await;
+    for piece in faces.chunks(LIGHT_PIECE) {
+        for face in piece {
+            clean.triangles.push(face.vertices.map(|v| new_index[v as usize]));
+            clean.corners.push(face.corners);
+            clean.sites.push(face.weights.map(|weights| SurfaceSite { triangle: face.source, weights }));
+            clean.source.push(face.source);
+            clean.flipped.push(face.flipped);
+        }
+        rest.rest().await;
     }
     clean
 }

@@ -3,6 +3,7 @@
 use bevy_math::{DVec3, Vec3};
 
 use super::face::{Face, NONE};
+use crate::rest::{LIGHT_PIECE, NoRest, Rest, at_once, end_of_runs, sort_by_number};
 
 /// Returns the twin of each half-edge: the half-edge that runs the other way along the same edge. Half-edge `3 * f + k`
 /// runs from corner `k` of triangle `f` to its next corner.
@@ -16,13 +17,23 @@ use super::face::{Face, NONE};
 /// assert_eq!(twins(&[[0, 1, 2], [0, 2, 3]]), [none, none, 3, 2, none, none]);
 /// ```
 pub fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
+    at_once(twins_in_pieces(triangles, &mut NoRest))
+}
+
+/// Does what [`twins`] does, with rests between its pieces.
+pub(crate) async fn twins_in_pieces(triangles: &[[u32; 3]], rest: &mut impl Rest) -> Vec<u32> {
+    let half_edges = sorted_half_edges(triangles, |&triangle| triangle, rest).await;
     let mut twin = vec![NONE; 3 * triangles.len()];
-    for run in sorted_half_edges(triangles.iter().copied()).chunk_by(|a, b| a.0 == b.0) {
-        if let &[(_, g), (_, h)] = run
-            && start(triangles, g) != start(triangles, h)
-        {
-            (twin[g as usize], twin[h as usize]) = (h, g);
+    let mut from = 0;
+    while let Some(piece) = next_edges(&half_edges, &mut from) {
+        for run in piece.chunk_by(is_same_edge) {
+            if let &[(_, g), (_, h)] = run
+                && start(triangles, g) != start(triangles, h)
+            {
+                (twin[g as usize], twin[h as usize]) = (h, g);
+            }
         }
+        rest.rest().await;
     }
     twin
 }
@@ -32,29 +43,50 @@ fn start(triangles: &[[u32; 3]], h: u32) -> u32 {
 }
 
 /// Returns all half-edges with their two vertices, the lower vertex first, sorted by the vertices and then by index.
-pub(super) fn sorted_half_edges(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<((u32, u32), u32)> {
-    let mut half_edges: Vec<_> = triangles
-        .enumerate()
-        .flat_map(|(f, [a, b, c])| {
-            [(a, b), (b, c), (c, a)].into_iter().zip(3 * f as u32..).map(|((a, b), h)| ((a.min(b), a.max(b)), h))
-        })
-        .collect();
-    half_edges.sort_unstable();
-    half_edges
+pub(super) async fn sorted_half_edges<T: Sync>(
+    faces: &[T],
+    vertices: impl Fn(&T) -> [u32; 3] + Send + Sync,
+    rest: &mut impl Rest,
+) -> Vec<SortedHalfEdge> {
+    let mut half_edges: Vec<SortedHalfEdge> = Vec::with_capacity(3 * faces.len());
+    for piece in faces.chunks(LIGHT_PIECE) {
+        for face in piece {
+            let ([a, b, c], h) = (vertices(face), half_edges.len() as u32);
+            half_edges.extend([(a, b, h), (b, c, h + 1), (c, a, h + 2)].map(|(a, b, h)| ((a.min(b), a.max(b)), h)));
+        }
+        rest.rest().await;
+    }
+    sort_by_number(half_edges, |&((low, _), _)| low, rest).await
+}
+
+/// Vertices of a half-edge, the lower one first, and its index.
+pub(super) type SortedHalfEdge = ((u32, u32), u32);
+
+/// Returns the next piece of the sorted half-edges, with all half-edges of each edge, and moves `from` to its end.
+pub(super) fn next_edges<'e>(half_edges: &'e [SortedHalfEdge], from: &mut usize) -> Option<&'e [SortedHalfEdge]> {
+    let end = end_of_runs(half_edges, *from, is_same_edge);
+    let piece = half_edges.get(*from..end).filter(|piece| !piece.is_empty());
+    *from = end;
+    piece
+}
+
+/// Returns whether two half-edges lie on the same edge.
+pub(super) fn is_same_edge(a: &SortedHalfEdge, b: &SortedHalfEdge) -> bool {
+    a.0 == b.0
 }
 
 /// List of all half-edges in which those of one edge are next to each other.
 pub(super) struct Edges {
-    half_edges: Vec<((u32, u32), u32)>,
+    half_edges: Vec<SortedHalfEdge>,
 }
 
 impl Edges {
-    pub fn new(faces: &[Face]) -> Self {
-        Self { half_edges: sorted_half_edges(faces.iter().map(|face| face.vertices)) }
+    pub async fn new(faces: &[Face], rest: &mut impl Rest) -> Self {
+        Self { half_edges: sorted_half_edges(faces, |face| face.vertices, rest).await }
     }
 
-    fn runs(&self) -> impl Iterator<Item = &[((u32, u32), u32)]> {
-        self.half_edges.chunk_by(|a, b| a.0 == b.0)
+    fn runs(&self) -> impl Iterator<Item = &[SortedHalfEdge]> {
+        self.half_edges.chunk_by(is_same_edge)
     }
 
     /// Iterates over the edges with more than two faces, each as its two vertices.
@@ -67,22 +99,34 @@ impl Edges {
     }
 
     /// Returns the twins across the edges with exactly two faces, whatever their winding.
-    pub fn pair_manifold(&self, faces: &[Face]) -> Vec<u32> {
+    pub async fn pair_manifold(&self, faces: &[Face], rest: &mut impl Rest) -> Vec<u32> {
         let mut twin = vec![NONE; 3 * faces.len()];
-        for run in self.runs() {
-            if let &[(_, g), (_, h)] = run
-                && !back_to_back(&faces[g as usize / 3], &faces[h as usize / 3])
-            {
-                (twin[g as usize], twin[h as usize]) = (h, g);
+        let mut from = 0;
+        while let Some(piece) = next_edges(&self.half_edges, &mut from) {
+            for run in piece.chunk_by(is_same_edge) {
+                if let &[(_, g), (_, h)] = run
+                    && !back_to_back(&faces[g as usize / 3], &faces[h as usize / 3])
+                {
+                    (twin[g as usize], twin[h as usize]) = (h, g);
+                }
             }
+            rest.rest().await;
         }
         twin
     }
 
     /// Adds twins across the edges with more than two faces, the smoothest continuation first. Pairs that agree in
     /// winding come before pairs that do not, and pairs that do not agree are joined only where they do not fold back.
-    pub fn pair_others(&self, faces: &[Face], positions: &[Vec3], twin: &mut [u32]) {
-        for run in self.runs().filter(|run| run.len() > 2) {
+    pub async fn pair_others(&self, faces: &[Face], positions: &[Vec3], twin: &mut [u32], rest: &mut impl Rest) {
+        let mut from = 0;
+        while let Some(piece) = next_edges(&self.half_edges, &mut from) {
+            Self::pair_others_in(piece, faces, positions, twin);
+            rest.rest().await;
+        }
+    }
+
+    fn pair_others_in(half_edges: &[SortedHalfEdge], faces: &[Face], positions: &[Vec3], twin: &mut [u32]) {
+        for run in half_edges.chunk_by(is_same_edge).filter(|run| run.len() > 2) {
             let pages: Vec<_> =
                 run.iter().map(|&((a, b), h)| Page::new(&faces[h as usize / 3], h, a, b, positions)).collect();
             let mut pairs = Vec::new();

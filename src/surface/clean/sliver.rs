@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use bevy_math::{DVec3, Vec3};
 
 use super::face::{Face, has_repeats};
+use crate::rest::{LIGHT_PIECE, PIECE, Rest, pieces};
 
 /// A triangle counts as without area if its altitude is below this part of its longest edge, and below the welding
 /// tolerance. Its angles are then below a ten-thousandth of a degree. Slivers of CAD programs are much fatter and are
@@ -23,14 +24,19 @@ const FILLER: f64 = 4.0;
 const RETURNS: u32 = 4;
 
 /// Dissolves slivers in place. Returns the number of slivers at the start. There must be no duplicate faces.
-pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64) -> usize {
-    let queue: BinaryHeap<_> =
-        (0..faces.len()).filter_map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f)))).collect();
+pub(super) async fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64, rest: &mut impl Rest) -> usize {
+    let mut slivers = Vec::new();
+    for piece in pieces(faces.len(), LIGHT_PIECE) {
+        let ranks = piece.map(|f| Some((sliver(&faces[f], positions, tolerance)?.rank(), Reverse(f))));
+        slivers.extend(ranks.flatten());
+        rest.rest().await;
+    }
+    let queue = BinaryHeap::from(slivers);
     let count = queue.len();
     if count == 0 {
         return 0;
     }
-    let mut work = Dissolver::new(faces, positions, tolerance, queue);
+    let mut work = Dissolver::new(faces, positions, tolerance, queue, rest).await;
     // No edge comes back for ever, so this ends; the number of steps is bounded for the sake of time. Slivers that are
     // left then stay: thin, but watertight.
     let mut steps = 16 * count + 64;
@@ -39,6 +45,9 @@ pub(super) fn dissolve(faces: &mut Vec<Face>, positions: &[Vec3], tolerance: f64
     {
         work.step(f);
         steps -= 1;
+        if steps.is_multiple_of(PIECE) {
+            rest.rest().await;
+        }
     }
     let mut dead = work.dead.into_iter();
     faces.retain(|_| !dead.next().unwrap_or(false));
@@ -118,16 +127,26 @@ struct Dissolver<'a> {
 }
 
 impl<'a> Dissolver<'a> {
-    fn new(faces: &'a mut Vec<Face>, positions: &'a [Vec3], tolerance: f64, queue: Queue) -> Self {
+    async fn new(
+        faces: &'a mut Vec<Face>,
+        positions: &'a [Vec3],
+        tolerance: f64,
+        queue: Queue,
+        rest: &mut impl Rest,
+    ) -> Self {
         let mut at_vertex = vec![Vec::new(); positions.len()];
-        for (f, face) in faces.iter().enumerate() {
-            for v in face.vertices {
-                at_vertex[v as usize].push(f as u32);
+        let mut origin = Vec::with_capacity(faces.len());
+        for piece in pieces(faces.len(), LIGHT_PIECE) {
+            for f in piece {
+                let face = &faces[f];
+                for v in face.vertices {
+                    at_vertex[v as usize].push(f as u32);
+                }
+                origin.push((!is_filler(face, positions, tolerance)).then(|| sorted(face.vertices)));
             }
+            rest.rest().await;
         }
         let dead = vec![false; faces.len()];
-        let has_area = |face: &&Face| !is_filler(face, positions, tolerance);
-        let origin = faces.iter().map(|face| Some(face).filter(has_area).map(|face| sorted(face.vertices))).collect();
         Self { faces, positions, tolerance, dead, origin, given_up: BTreeMap::new(), at_vertex, queue }
     }
 
