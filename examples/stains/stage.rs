@@ -160,9 +160,6 @@ fn orbit(theme: usize, rows: &[Row], aspect: Option<f32>) -> Orbit {
     Orbit { centre, distance, yaw: 0.0, pitch: PITCH, field_of_view: FIELD_OF_VIEW }
 }
 
-/// Of the window.
-pub const SIZE: UVec2 = UVec2::new(1280, 900);
-
 /// One for each theme.
 pub fn views(options: &Options, size: UVec2) -> Views {
     let aspect = Some(size.x as f32 / size.y as f32);
