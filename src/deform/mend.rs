@@ -45,7 +45,7 @@ impl FilmConstraints {
                 self.wake(mesh, v);
             }
         }
-        // What lies beyond an edge around the places bends it as well, and may be all of it that the metal does not hold.
+        // What lies beyond an edge around the places bends it as well, and may be all that the metal does not hold.
         for twin in mend.edges.iter().flat_map(|&h| [Some(h), topology.bound_twin(h)]).flatten() {
             if topology.is_live(twin.face()) {
                 self.wake(mesh, topology.apex(twin));
