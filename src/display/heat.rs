@@ -34,7 +34,7 @@ use crate::{
         heat_map_view::HeatMapView,
         links::{CoatedBy, CoatingPart, FilmSource},
     },
-    film::FilmMesh,
+    film::{FaceId, FilmMesh},
     fracture::FilmForces,
     heat::{HeatFilm, HeatMap, HeatValues},
     sim::{FilmClock, Stage},
@@ -195,14 +195,25 @@ fn write(mesh: &mut Mesh, heat: &HeatOverlay, space: PartSpace, film: &FilmMesh,
     let mut positions = Vec::with_capacity(count);
     let mut normals = Vec::with_capacity(count);
     let mut colors = Vec::with_capacity(count);
+    let outwards = |f: FaceId| {
+        let [a, b, c] = topology.corners(f).map(|v| geometry.positions[v.index()]);
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    // Faces that share a corner are lifted there by the same: each by itself, they would gape.
+    let mut lifts = vec![Vec3::ZERO; topology.vertex_count()];
+    for f in topology.live_faces() {
+        let normal = outwards(f);
+        topology.corners(f).iter().for_each(|v| lifts[v.index()] += normal);
+    }
+    lifts.iter_mut().for_each(|normal| *normal = normal.normalize_or_zero() * lift);
     for f in topology.live_faces() {
         if hidden.get(f.index()) == Some(&true) {
             continue;
         }
-        let corners = topology.corners(f).map(|v| geometry.positions[v.index()]);
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        let corners = topology.corners(f).map(|v| geometry.positions[v.index()] + lifts[v.index()]);
+        let normal = outwards(f);
         for i in space.index_order() {
-            positions.push(space.position((corners[i] + normal * lift).to_array()));
+            positions.push(space.position(corners[i].to_array()));
             normals.push(space.normal(normal.to_array()));
             let value = heat.values.corners().get(3 * f.index() + i).copied().unwrap_or(f32::NAN);
             let [r, g, b] = heat.shown.map.color(value, range);
