@@ -82,6 +82,11 @@ impl Progress<'_, '_> {
             && films >= wanted
     }
 
+    /// Films on their way to another age.
+    pub fn seeking(&self) -> usize {
+        self.status.seeking
+    }
+
     /// Age of the youngest film.
     pub fn age(&self) -> f64 {
         self.status.youngest

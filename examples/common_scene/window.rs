@@ -185,8 +185,8 @@ fn orbit(
             orbit.distance = (orbit.distance * (-0.12 * lines).exp()).clamp(0.15, 40.0);
         }
         let mut place = orbit.transform();
-        // Never below the ground.
-        place.translation.y = place.translation.y.max(0.12);
+        // Never below the ground, unless that is where it looks.
+        place.translation.y = place.translation.y.max(orbit.centre.y.min(0.12));
         if *transform != place {
             *transform = place;
         }
@@ -222,6 +222,8 @@ fn read_out(
         let (films, wanted) = progress.films();
         ui.label(if films < wanted || wanted == 0 {
             format!("building films: {films} of {wanted}")
+        } else if progress.seeking() > 0 {
+            format!("films on their way to another age: {}", progress.seeking())
         } else if clock.paused {
             "paused".to_owned()
         } else {

@@ -41,12 +41,17 @@ fn show(
         ui.separator();
         ui.label(format!("Here: {}", figure.here));
         ui.separator();
+        let mut lines: Vec<(f64, String)> = Vec::new();
         for (clock, summary, coated_by) in &films {
             let Ok(Wanted { panel, figure: own }) = wanted.get(coated_by.0) else { continue };
             if *own == figure.file {
-                ui.label(format!("{} (age {:.2}): {}", panel.exhibit.title, clock.age(), told(summary)));
+                let line = format!("{} (age {:.2}): {}", panel.exhibit.title, clock.age(), told(summary));
+                lines.push((panel.age, line));
             }
         }
+        // Queries have no order of their own.
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
+        lines.iter().for_each(|(_, line)| _ = ui.label(line));
     });
     Ok(())
 }
