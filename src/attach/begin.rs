@@ -205,7 +205,7 @@ fn check_candidate(
             None => return Ok(None),
         }
     }
-    // A film that is built again begins anew.
+    // A film that is built again is not what was saved.
     let snapshot = world.get::<CoatingSnapshot>(root).filter(|_| !candidate.renews);
     let state = snapshot.and_then(|saved| saved.film_at(&written_path(world, root, candidate.film)));
     let saved = snapshot.zip(state).map(|(saved, state)| (state.clone(), saved.date));

@@ -9,6 +9,7 @@ mod extras;
 mod faulty;
 mod figures;
 mod files;
+mod left_alone;
 mod masks;
 mod model;
 #[cfg(feature = "render")]
